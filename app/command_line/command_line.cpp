@@ -275,7 +275,10 @@ int run_command_line(const Command& program, int argc, char** argv) {
     return failed;
   } catch (const std::exception& error) {
     if (std::ferror(stdout)) return with_output_checked(failed);  // fmt throws where it cannot print
-    fmt::print(stderr, "{}: {}\n", program.name, shown(error.what()));
+    std::error_code gone;
+    (void)std::filesystem::current_path(gone);
+    fmt::print(stderr, "{}: {}\n", program.name,
+               gone ? "the folder that this runs in is gone; change to another" : shown(error.what()));
     return interrupting_signal ? 128 + interrupting_signal : bad_input;  // what lacks as it was ended is no bad input
   }
 }

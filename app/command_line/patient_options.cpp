@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <optional>
+#include <set>
 
 #include "app/command_line/arguments.h"
 #include "data/formats/decimal.h"
@@ -18,8 +19,11 @@ void add_patient_option(Options& options, std::vector<std::string>& set) {
 
 data::Case case_with(const std::string& name, const std::vector<std::string>& set) {
   data::Case c = data::find_case(name);
+  std::set<std::string> known;
   for (const std::string& one : set) {
     const auto [key, value] = key_and_value(one);
+    if (!known.insert(key).second)
+      throw data::LoadError(fmt::format("--set {}: {} is set already; expected one value", one, key));
     const std::optional<double> number = data::decimal(value);
     if (key == "person") {
       if (!number || *number < 0 || *number > 9e15 || *number != std::floor(*number))

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 
 namespace ostium::app {
@@ -28,12 +29,29 @@ void LastingProblem::show(const std::string& when, std::string_view what) {
   std::fflush(stderr);
 }
 
-void TimedProgress::operator()(const std::string& what) const {
-  const double s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  const std::string line = fmt::format("{:5.1f} s  {}{}", s, of_, what);
+double TimedProgress::elapsed_s() const {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+}
+
+void TimedProgress::say(Said& said) const {
+  const double s = elapsed_s();
+  const std::string line = fmt::format("{:5.1f} s  {}{}", s, of_, said.last);
   show_progress(line);
-  if (!on_terminal() && s >= quiet_s_ && s >= logged_s_ + every_s_) fmt::print(stderr, "{}\n", line), logged_s_ = s;
+  if (s < quiet_s_ || s < said.logged_s + every_s_) return;
+  said.logged_s = s;
+  if (!on_terminal()) fmt::print(stderr, "{}\n", line);
   std::fflush(stderr);
+}
+
+void TimedProgress::operator()(const std::string& what) const {
+  const std::lock_guard lock(said_->saying);
+  said_->last = what;
+  say(*said_);
+}
+
+void TimedProgress::go_on() const {
+  const std::lock_guard lock(said_->saying);
+  if (!said_->last.empty() && elapsed_s() >= std::max(quiet_s_, said_->logged_s + every_s_)) say(*said_);
 }
 
 }  // namespace ostium::app

@@ -82,6 +82,14 @@ int write_a_template(const Arguments& a) {
   return 0;
 }
 
+/// Whether to end, asked often: a log gets its line a minute, however long a fit takes.
+std::function<bool()> going_on(const TimedProgress& progress) {
+  return [progress] {
+    progress.go_on();
+    return interrupted.load();
+  };
+}
+
 /// A set of curves is quick: the first rank does it all.
 int run_curves(const Arguments& a, const data::JsonValue& root) {
   if (data::rank() != 0) return 0;
@@ -92,9 +100,10 @@ int run_curves(const Arguments& a, const data::JsonValue& root) {
   const FilledFolder folder(a.folder);
   data::curves::CurveOptions options;
   for (const std::string& words : a.tries) options.tries.push_back(split(words, '+'));
-  options.progress = TimedProgress(*root.file + ": ", 60, 60);
+  const TimedProgress progress(*root.file + ": ", 60, 60);
+  options.progress = progress;
   stop_on_signals();
-  options.stop = [] { return interrupted.load(); };
+  options.stop = going_on(progress);
   explain_curves(root, options, a.folder, a.json);
   return 0;
 }
@@ -120,10 +129,11 @@ int run(const Arguments& a) {
   data::ExplainOptions explain_options;
   explain_options.threads = a.threads, explain_options.library = a.tries.empty();
   for (const std::string& words : a.tries) explain_options.tries.push_back(split(words, '+'));
-  if (data::rank() == 0) explain_options.progress = TimedProgress(set.file + ": ", 60, 60);
+  const TimedProgress progress(set.file + ": ", 60, 60);
+  if (data::rank() == 0) explain_options.progress = progress;
   if (data::ranks() == 1) {
     stop_on_signals();
-    explain_options.stop = [] { return interrupted.load(); };
+    explain_options.stop = going_on(progress);
   }
   const data::Explanation found = explain(set, explain_options);
   if (data::rank() != 0) return 0;

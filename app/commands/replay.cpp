@@ -141,7 +141,13 @@ int make_film(const Arguments& a, Replay& replay, Json& told) {
   if (!a.video.empty()) writer.emplace(a.video, options.pixels, film.height(), options.frames_per_s);
   data::DicomRuns runs;
   Still still;
-  if (!a.png.empty()) still.at_s = std::max(a.from_s, lag_s);
+  if (!a.png.empty()) {
+    still.at_s = a.from_s;
+    // Near the beginning the lag settles on what is seen there.
+    if (!a.films())
+      for (double s = a.from_s; s < lag_s; s += 1 / options.frames_per_s)
+        film.frame(replay.model, replay.state, replay.inputs, replay.xrays());
+  }
   const auto anchor = std::llround(a.from_s / replay.model.step_s());  // of the frames: there is one at --from
   const double begin_s = a.png.empty() ? a.from_s : a.from_s - lag_s;
   const double end_s = !a.films() ? 0 : a.seconds > 0 ? a.from_s + a.seconds : 1e300;

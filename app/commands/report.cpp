@@ -160,6 +160,10 @@ void declare(Options& options, Arguments& a) {
 int run(const Arguments& a) {
   if (!a.codes.empty() && a.codes.size() != a.files.size())
     throw data::LoadError(fmt::format("{} codes for {} recordings; expected one each", a.codes.size(), a.files.size()));
+  for (std::size_t i = 1; i < a.codes.size(); ++i)
+    if (std::find(a.codes.begin(), a.codes.begin() + static_cast<std::ptrdiff_t>(i), a.codes[i]) !=
+        a.codes.begin() + static_cast<std::ptrdiff_t>(i))
+      throw data::LoadError(fmt::format("--code has {} twice; expected one of its own for each", a.codes[i]));
   if (a.files.empty()) {
     if (a.questionnaire.empty())
       throw data::LoadError("nothing to report; expected recordings RUN.h5, or --questionnaire");

@@ -35,32 +35,63 @@ std::vector<std::string> split_fields(const std::string& line, char separator) {
   return out;
 }
 
+/// The rarest of those that a line has: names may hold commas, and lists of names no tabs.
+char separator_in(const std::string& line) {
+  for (const char one : {'\t', ';'})
+    if (line.find(one) != std::string::npos) return one;
+  return ',';
+}
+
 std::string listed(const std::vector<std::string>& names) {
   std::string out;
   for (const std::string& name : names) out += (out.empty() ? "" : ", ") + name;
   return out;
 }
 
+/// The file's text with \n at the end of every line, whichever its program writes.
+std::string text_of(const std::string& file, const std::string& expected) {
+  const std::string bytes = read_file(file, "a table with the columns " + expected);
+  if (bytes.starts_with("\xFF\xFE") || bytes.starts_with("\xFE\xFF"))
+    throw LoadError(file + ": is UTF-16; save it as UTF-8");
+  std::string out;
+  for (std::size_t i = 0; i < bytes.size(); ++i) {
+    if (bytes[i] == '\0')
+      throw LoadError(fmt::format("{}:{}: holds a byte 0; expected text, UTF-8", file,
+                                  1 + std::count(out.begin(), out.end(), '\n')));
+    const bool ends = bytes[i] == '\r' && (i + 1 == bytes.size() || bytes[i + 1] != '\n');
+    if (ends || bytes[i] != '\r') out += ends ? '\n' : bytes[i];
+  }
+  return out;
+}
+
 }  // namespace
 
 CsvTable load_csv(const std::string& file, const std::string& expected) {
-  std::istringstream in(read_file(file, "a table with the columns " + expected));
+  std::istringstream in(text_of(file, expected));
   CsvTable out;
-  char separator = ',';
+  char separator = 0;  // until it is known
   int number = 0;
   for (std::string line; std::getline(in, line);) {
     if (++number == 1 && line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);
     if (trimmed(line).empty() || line[0] == '#') continue;
+    if (number == 1 && line.starts_with("sep=") && line.size() == 5) {  // as Excel writes and reads it
+      separator = line[4];
+      continue;
+    }
     if (out.columns.empty()) {
-      for (const char other : {';', '\t'})
-        if (line.find(other) != std::string::npos) separator = other;
+      if (separator == 0) separator = separator_in(line);
       out.header_line = number, out.columns = split_fields(line, separator);
+      if (std::all_of(out.columns.begin(), out.columns.end(), [](const auto& name) { return decimal(name); }))
+        throw LoadError(fmt::format("{}:{}: the first line has no names; expected a header with the columns {}", file,
+                                    number, expected));
       continue;
     }
     out.rows.push_back({number, split_fields(line, separator)});
     if (const std::size_t fields = out.rows.back().fields.size(); fields != out.columns.size())
       throw LoadError(
-          fmt::format("{}:{}: {} fields; expected {}, as the header has", file, number, fields, out.columns.size()));
+          fmt::format("{}:{}: {} fields; expected {}, as the header in line {} has; what stands above the "
+                      "header, or is no part of the table, begins with #",
+                      file, number, fields, out.columns.size(), out.header_line));
   }
   if (out.columns.empty()) throw LoadError(file + " is empty; expected a header with the columns " + expected);
   return out;

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <climits>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
@@ -47,7 +48,9 @@ NewFile::NewFile(const std::string& path) : path_(path) {
   constexpr int most_links = 40;                                                   // as the kernel has it
   for (int links = 0; links < most_links && fs::is_symlink(path_, none); ++links)  // whether there is a file or not yet
     path_ = (fs::path(path_).parent_path() / fs::read_symlink(path_, none)).string();
-  beside_ = path_ + ".unfinished";
+  // A name may be as long as the file system takes: then the other is made of its beginning.
+  const std::string ending = ".unfinished", name = fs::path(path_).filename().string();
+  beside_ = path_.substr(0, path_.size() - name.size()) + name.substr(0, NAME_MAX - ending.size()) + ending;
   if (const fs::path folder = fs::path(path_).parent_path(); !folder.empty()) fs::create_directories(folder, none);
   // Neither a device nor a folder can be replaced; what is written to a folder fails.
   if (fs::exists(path_, none) && !fs::is_regular_file(path_, none)) beside_ = path_;

@@ -110,7 +110,11 @@ int main(int argc, char** argv) {
       "Examples:\n  ostium-bench\n  ostium-bench --json > bench.json\n  ostium-bench --growth\n"
       "  ostium-bench --frames --renderer scanline egl\n"
       "  ostium-bench --procedure pci-rca-mid-focal\n  ostium-bench --profile out/run.h5 --from 80 --seconds 10");
-  CLI11_PARSE(app, argc, argv);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  }
 
   const Duration duration = quick ? Duration{100, 1000} : Duration{};
   if (stretch_only) {

@@ -189,7 +189,11 @@ int main(int argc, char** argv) {
   app.footer(
       "Examples:\n  ostium-campaign -o campaign.jsonl\n  ostium-campaign --kinds clean,roll_loss --seeds 3 --clean 3\n"
       "  ostium-campaign --kinds roll_loss --seeds 1 --write sets");
-  CLI11_PARSE(app, argc, argv);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  }
   try {
     return run(o);
   } catch (const std::exception& error) {

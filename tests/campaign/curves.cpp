@@ -126,6 +126,10 @@ int main(int argc, char** argv) {
   app.add_option("--seeds", o.seeds, "");
   app.add_option("--sets", o.sets, "Also write the sets to this folder");
   app.add_flag("--verbose", o.verbose, "Say what went wrong");
-  CLI11_PARSE(app, argc, argv);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  }
   return run(o);
 }

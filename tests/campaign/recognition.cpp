@@ -95,7 +95,11 @@ int main(int argc, char** argv) {
   app.add_option("--seeds", o.seeds, "Of each kind")->capture_default_str();
   app.add_flag("--each", o.each, "A line for each, too");
   app.add_option("--write", o.meshes, "Write the meshes here, and label none")->type_name("DIR");
-  CLI11_PARSE(app, argc, argv);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  }
   try {
     return run(o);
   } catch (const std::exception& error) {

@@ -96,6 +96,10 @@ int main(int argc, char** argv) {
   app.add_option("--first-seed", first, "");
   app.add_option("--seeds", count, "");
   app.add_option("--sets", to, "Folder for the sets and what was found");
-  CLI11_PARSE(app, argc, argv);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  }
   return run(first, count, to);
 }

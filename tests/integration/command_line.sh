@@ -273,6 +273,7 @@ expect 0 '"same": true' "$ostium" replay "$out/run.h5" --from 1 --json
 expect 0 "moment.png" "$ostium" replay "$out/run.h5" --from 0.5 --view lao --pixels 128 --png "$out/moment.png"
 # One picture is of its moment, a film beside it or not; --json is JSON whatever is made.
 [[ $("$ostium" replay "$out/run.h5" --from 0.8 --pixels 64 --png "$out/alone.png") == *" at 0.800 s" ]]
+[[ $("$ostium" replay "$out/run.h5" --from 0.2 --pixels 64 --png "$out/early.png") == *" at 0.200 s" ]]
 "$ostium" replay "$out/run.h5" --from 0.8 --pixels 64 --png "$out/beside.png" --video "$out/beside.mp4" --verify --json |
   python3 -c 'import json, sys; told = json.load(sys.stdin); assert told["same"] and len(told["pictures"]) == 2'
 cmp "$out/alone.png" "$out/beside.png"

@@ -147,6 +147,27 @@ expect 1 "limited-frame.png: cannot be written .File too large" bash -c 'ulimit 
   frame --pixels 128 --frames 1 -o limited-frame.png
 [[ ! -e limited-frame.png && ! -e limited-frame.png.unfinished ]]
 
+# What is given twice is not passed over, however it is written.
+refused "person is set already" frame rca-mid-focal --set person=1 --set person=2 -o none.png
+refused "heart_rate has 70 twice" sweep rca-mid-focal --vary heart_rate=70,7e1 -o twice.csv
+refused "has A twice" report none.h5 other.h5 --code A A -o none.html
+refused "is the table, too" sweep rca-mid-focal -o twice.csv --keep ./twice.csv
+[[ ! -e twice.csv && ! -e twice.csv.part ]]
+
+# A lesion where there is no model of one is refused where the case is read.
+sed '/"branch"/s/"RCA"/"aorta"/; s/"name": .*/"name": "in-aorta",/' "$here/../../data/cases/rca-mid-focal.json" >in-aorta.json
+refused "in-aorta.json:[0-9]*: lesions.0..branch is \"aorta\"; expected a coronary artery" inject in-aorta.json -o none.png
+
+# A name may be as long as the file system takes.
+long=$(printf '%0251d' 0).png
+expect 0 "" "$ostium" frame --pixels 128 --frames 1 -o "$long"
+[[ -s $long ]]
+
+# A folder that is gone is said to be.
+mkdir gone
+(cd gone && rmdir ../gone && refused "the folder that this runs in is gone" run rca-mid-focal --out there)
+(cd "$folder" && mkdir gone && cd gone && rmdir ../gone && refused "the folder that this runs in is gone" cases ./x)
+
 # A course is refused with its file and line, and what would do nothing is not passed over.
 expect 2 "would do nothing" "$ostium" learn --list --lesson whole
 sed 's/"first-steps"/"my-steps"/; s/"lesson-film"/"no-list"/' "$here/../../data/courses/first-steps.json" >my-steps.json

@@ -19,6 +19,8 @@ Eigen::Matrix3d rotation_in(Eigen::Matrix3d F) {
   return F;
 }
 
+}  // namespace
+
 bool of_heart(const Anatomy& anatomy, int tube) {
   const auto names = {"LAD", "LCx", "left sinus", "right sinus", "non-coronary sinus"};
   for (int t = tube; t >= 0 && !is_aorta(anatomy, t); t = anatomy.tubes[t].parent) {
@@ -29,8 +31,6 @@ bool of_heart(const Anatomy& anatomy, int tube) {
   }
   return false;
 }
-
-}  // namespace
 
 bool is_aorta(const Anatomy& anatomy, int tube) { return anatomy.aorta && tube == 0; }
 

@@ -43,6 +43,8 @@ class TubeMotion {
 };
 
 bool is_aorta(const Anatomy& anatomy, int tube);
+/// Whether it is a coronary artery or a sinus, which the heart carries along.
+bool of_heart(const Anatomy& anatomy, int tube);
 
 /// Whether a vertex of a surface that was given frame by frame ever moves by more than file rounding.
 bool is_displaced(const std::vector<Eigen::Vector3d>& rest, const std::vector<std::vector<Eigen::Vector3d>>& frames,

@@ -47,7 +47,7 @@ void declare(Options& options, Arguments& a) {
   options.flag("--dicom", a.frames.dicom, "The pictures as DICOM films, too, each with a segmentation (DICOM SEG)");
   options.add("--part", a.runs.part, "Only this part of the runs; auto: by the rank that Slurm or mpirun gives")
       .type("K/N|auto");
-  options.add("-o,--output", a.folder, "Where it goes; runs that are done there are left as they are")
+  options.add("-o,--output", a.folder, "Where it goes; runs whose files are all there are left as they are")
       .type("DIR")
       .required();
 }
@@ -121,8 +121,7 @@ class Dataset {
 
   bool is_done(std::size_t run) const {
     if (!data::is_there(run_file(run))) return false;
-    stored(run);
-    return true;
+    return are_there(stored(run), arguments_.folder);
   }
 
   /// A run that throws is one without pictures, with its reason.

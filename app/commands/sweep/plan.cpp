@@ -24,8 +24,10 @@ void read_seeds(const std::string& text, SweepGrid& grid) {
   grid.first_seed = *from, grid.last_seed = *to;
 }
 
-/// What is there twice would make the same runs twice.
+/// What is there twice would make the same runs twice; so would a number that is written in two ways.
 void require_distinct(std::vector<std::string> values, const std::string& option) {
+  for (std::string& value : values)
+    if (const std::optional<double> number = data::decimal(value)) value = fmt::format("{}", *number);
   std::ranges::sort(values);
   if (const auto twice = std::ranges::adjacent_find(values); twice != values.end())
     throw data::LoadError(fmt::format("{} has {} twice; expected each once", option, *twice));

@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <filesystem>
+
 #include "app/command_line/arguments.h"
 #include "app/command_line/command.h"
 #include "app/command_line/interrupt.h"
@@ -37,6 +39,9 @@ void require_arguments(const SweepArguments& a) {
   }
   if (a.vessels.empty()) throw data::LoadError("there is nothing to run; expected cases or meshes");
   if (a.table.empty()) throw data::LoadError("there is no table; expected -o TABLE.csv");
+  if (!a.keep.empty() &&
+      std::filesystem::absolute(a.keep).lexically_normal() == std::filesystem::absolute(a.table).lexically_normal())
+    throw data::LoadError(fmt::format("--keep {} is the table, too; expected another folder", a.keep));
   recorder_of(a.record);
   if (a.keep.empty() && !a.record.empty() && a.record != "none")
     throw data::LoadError("--record " + a.record + " has no place; expected --keep DIR");

@@ -9,6 +9,7 @@
 #include "app/session/labelling/dicom_film.h"
 #include "app/session/run/run.h"
 #include "app/session/scene/film.h"
+#include "data/formats/paths.h"
 #include "data/formats/png.h"
 
 namespace ostium::app {
@@ -69,6 +70,16 @@ Json frames_of_run(const RunSetup& setup, std::shared_ptr<const Vessel> vessel, 
               {"pictures", pictures}};
   if (options.dicom) out["dicom"] = files;
   return out;
+}
+
+bool are_there(const Json& run, const std::string& folder) {
+  std::vector<std::string> files;
+  for (const Json& picture : run.at("pictures"))
+    for (const char* of : {"file_name", "mask", "depth"}) files.push_back(picture.at("image").at(of));
+  for (const Json& film : run.value("dicom", Json::array()))
+    for (const auto& [of, file] : film.items()) files.push_back(file);
+  return std::all_of(files.begin(), files.end(),
+                     [&](const std::string& file) { return data::is_there((fs::path(folder) / file).string()); });
 }
 
 }  // namespace ostium::app

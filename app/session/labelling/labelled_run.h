@@ -20,5 +20,7 @@ struct FrameOptions {
 nlohmann::ordered_json frames_of_run(const RunSetup& setup, std::shared_ptr<const Vessel> vessel,
                                      const std::string& run_name, const std::string& folder,
                                      const FrameOptions& options);
+/// Whether all files that a run of `frames_of_run` wrote are still there.
+bool are_there(const nlohmann::ordered_json& run, const std::string& folder);
 
 }  // namespace ostium::app

@@ -280,7 +280,8 @@ RunSetup setup_from_json(const std::string& file, const std::string& text) {
       throw data::LoadError(file + ": has another number of instruments than its script has tools");
     return setup;
   } catch (const nlohmann::json::exception& error) {
-    throw data::LoadError(fmt::format("{}: its setup cannot be read: {}", file, error.what()));
+    const std::string words = error.what();  // "[json.exception.parse_error.101] ..."
+    throw data::LoadError(fmt::format("{}: its setup cannot be read: {}", file, words.substr(words.find("] ") + 2)));
   }
 }
 

@@ -15,6 +15,7 @@
 #include "data/formats/paths.h"
 #include "data/formats/read_file.h"
 #include "vascular/motion/heart_cycle.h"
+#include "vascular/motion/tube_motion.h"
 
 namespace ostium::data {
 
@@ -48,7 +49,8 @@ vascular::Composition read_composition(const JsonObject& entry) {
   return out;
 }
 
-vascular::Lesion read_lesion(const JsonObject& entry, const vascular::Anatomy& anatomy) {
+/// `own_beat`: frames that were given say what moves.
+vascular::Lesion read_lesion(const JsonObject& entry, const vascular::Anatomy& anatomy, bool own_beat) {
   vascular::Lesion lesion{.branch = entry.text("branch"),
                           .from_m = entry.not_negative("from_mm") * 1e-3,
                           .length_m = entry.positive("length_mm") * 1e-3,
@@ -64,6 +66,9 @@ vascular::Lesion read_lesion(const JsonObject& entry, const vascular::Anatomy& a
   } catch (const std::invalid_argument& error) {
     entry.value().fail(fmt::format("{}: {}", entry.value().path(), error.what()));
   }
+  const int tube = find_branch(anatomy, lesion.branch)->tube;
+  if (is_aorta(anatomy, tube) || !(own_beat || of_heart(anatomy, tube)))
+    entry["branch"].refuse("a coronary artery; there is no lesion model for others");
   return lesion;
 }
 
@@ -112,7 +117,8 @@ Case case_of(const JsonValue& file) {
     root.refuse("heart_rate_1_min");
   const vascular::Anatomy anatomy = anatomy_of(c);
   for (const JsonValue& value : root.list("lesions"))
-    c.lesions.push_back(read_lesion(JsonObject(value, case_keys::lesion), anatomy));
+    c.lesions.push_back(
+        read_lesion(JsonObject(value, case_keys::lesion), anatomy, c.imported && !c.imported->frames.empty()));
   try {
     vascular::check_apart(c.lesions);
   } catch (const std::invalid_argument& error) {

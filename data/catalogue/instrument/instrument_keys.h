@@ -41,7 +41,7 @@ inline const JsonObjectKeys instrument = {
 
 inline const JsonObjectKeys friction = {
     "friction",
-    {{"coefficient", true, "the coefficient of friction, > 0", json_type::number(above_zero)},
+    {{"coefficient", true, "the coefficient of friction, > 0 and at most 2", json_type::number(above_zero_to(2))},
      {"sigma", true, "its standard error, > 0", json_type::number(above_zero)},
      {"source", true, source_text, json_type::text()}}};
 

@@ -29,6 +29,12 @@ class TagReader {
     throw LoadError(fmt::format("{}: {} {} is missing or not a number; write the view's geometry into the set instead",
                                 file_, key.toString().c_str(), name));
   }
+  double angle(const DcmTagKey& key, const char* name, double most_deg) const {
+    const double value = number(key, name);
+    if (std::fabs(value) <= most_deg) return value;
+    throw LoadError(fmt::format("{}: {} {} is {:g}; expected degrees, {:g} to {:g}", file_, key.toString().c_str(),
+                                name, value, -most_deg, most_deg));
+  }
   double positive(const DcmTagKey& key, const char* name, unsigned long which = 0) const {
     const double value = number(key, name, which);
     if (value > 0) return value;
@@ -39,9 +45,14 @@ class TagReader {
     if (dataset().findAndGetUint16(key, value).good() && value > 1) return value;
     throw LoadError(fmt::format("{}: {} {} is missing", file_, key.toString().c_str(), name));
   }
-  std::string text(const DcmTagKey& key) const {
+  std::string text(const DcmTagKey& key, unsigned long which = 0) const {
     OFString value;
-    return dataset().findAndGetOFString(key, value).good() ? value.c_str() : "";
+    return dataset().findAndGetOFString(key, value, which).good() ? value.c_str() : "";
+  }
+  void require_still(const DcmTagKey& key, const char* name, const char* what) const {
+    if (text(key) == "DYNAMIC")
+      throw LoadError(fmt::format("{}: {} {} is DYNAMIC; expected a run whose {} stands still", file_,
+                                  key.toString().c_str(), name, what));
   }
 
  private:
@@ -55,11 +66,13 @@ class TagReader {
 
 DicomGeometry read_dicom_geometry(const std::string& file) {
   const TagReader tags(file);
-  if (tags.text(DCM_PositionerMotion) == "DYNAMIC")
-    throw LoadError(file + ": (0018,1500) PositionerMotion is DYNAMIC; expected a run whose C-arm stands still");
+  if (const std::string modality = tags.text(DCM_Modality); modality != "XA" && modality != "RF")
+    throw LoadError(fmt::format("{}: (0008,0060) Modality is \"{}\"; expected XA or RF", file, modality));
+  tags.require_still(DCM_PositionerMotion, "PositionerMotion", "C-arm");
+  tags.require_still(DCM_TableMotion, "TableMotion", "table");
   DicomGeometry out;
-  out.primary_deg = tags.number(DCM_PositionerPrimaryAngle, "PositionerPrimaryAngle");
-  out.secondary_deg = tags.number(DCM_PositionerSecondaryAngle, "PositionerSecondaryAngle");
+  out.primary_deg = tags.angle(DCM_PositionerPrimaryAngle, "PositionerPrimaryAngle", 180);
+  out.secondary_deg = tags.angle(DCM_PositionerSecondaryAngle, "PositionerSecondaryAngle", 90);
   out.source_to_detector_mm = tags.positive(DCM_DistanceSourceToDetector, "DistanceSourceToDetector");
   out.source_to_isocentre_mm = tags.positive(DCM_DistanceSourceToPatient, "DistanceSourceToPatient");
   out.pixel_mm = tags.positive(DCM_ImagerPixelSpacing, "ImagerPixelSpacing", 1);
@@ -70,6 +83,7 @@ DicomGeometry read_dicom_geometry(const std::string& file) {
   if (out.source_to_isocentre_mm >= out.source_to_detector_mm)
     throw LoadError(fmt::format("{}: DistanceSourceToPatient is {}; expected less than DistanceSourceToDetector, {}",
                                 file, out.source_to_isocentre_mm, out.source_to_detector_mm));
+  out.right_is_to = tags.text(DCM_PatientOrientation, 0), out.down_is_to = tags.text(DCM_PatientOrientation, 1);
   out.columns = tags.pixels(DCM_Columns, "Columns"), out.rows = tags.pixels(DCM_Rows, "Rows");
   return out;
 }

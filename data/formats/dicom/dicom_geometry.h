@@ -10,9 +10,10 @@ struct DicomGeometry {
   double source_to_detector_mm = 0, source_to_isocentre_mm = 0;
   double pixel_mm = 0;  ///< at the detector, the same along rows and columns
   int columns = 0, rows = 0;
+  std::string right_is_to, down_is_to;  ///< of the picture: "LP", letters of the patient's sides; empty: not told
 };
 
-/// Throws LoadError naming the tag that is missing or cannot be, or if the positioner moves.
+/// Throws LoadError naming the tag that is missing or cannot be, or if positioner or table move.
 DicomGeometry read_dicom_geometry(const std::string& file);
 
 }  // namespace ostium::data

@@ -9,6 +9,24 @@
 
 namespace ostium::data {
 
+namespace {
+
+/// Whether a value is of the one sort that the key's schema names; where it names several, or none, the reader looks.
+bool is_of(const JsonType& type, const JsonValue& value) {
+  using Type = JsonValue::Type;
+  const auto named =
+      std::find_if(type.schema.begin(), type.schema.end(), [](const auto& m) { return m.key == "type"; });
+  if (named == type.schema.end()) return true;
+  const std::string& name = named->value.text;
+  if (name == "string") return value.type == Type::text && !value.text.empty();
+  if (name == "boolean") return value.type == Type::boolean;
+  if (name == "array") return value.type == Type::array;
+  if (name == "object") return value.type == Type::object;
+  return value.type == Type::number && type.range.holds(value.number);
+}
+
+}  // namespace
+
 JsonObject::JsonObject(const JsonValue& value, const JsonObjectKeys& keys) : value_(value), keys_(keys) {
   if (value.type != JsonValue::Type::object) value.refuse("an object {...}: the " + keys.object);
   for (const auto& [name, member] : value.members) {
@@ -22,6 +40,8 @@ JsonObject::JsonObject(const JsonValue& value, const JsonObjectKeys& keys) : val
     if (key.required && !has(key.name))
       value.fail(fmt::format("{}{}{} is missing; expected {}", value.path(), value.path().empty() ? "" : ".", key.name,
                              key.expected));
+  for (const JsonKey& key : keys.keys)
+    if (const JsonValue* member = value.find(key.name); member && !is_of(key.type, *member)) refuse(key.name);
 }
 
 const JsonValue& JsonObject::operator[](const std::string& key) const {
@@ -64,6 +84,11 @@ int JsonObject::whole(const std::string& key) const {
   const double value = number(key);
   if (value != std::floor(value) || std::fabs(value) > std::numeric_limits<int>::max()) refuse(key);
   return static_cast<int>(value);
+}
+
+std::optional<double> JsonObject::number_or_null(const std::string& key) const {
+  if (!has(key) || (*this)[key].type == JsonValue::Type::null) return std::nullopt;
+  return number(key);
 }
 
 double JsonObject::positive(const std::string& key) const {

@@ -1,6 +1,7 @@
 #pragma once
 /// Strict access to a JSON object with known keys: an unknown or missing key or a value of the wrong type throws
 /// LoadError with file, line, key, value found and what was expected.
+#include <optional>
 #include <utility>
 
 #include "data/formats/json/json_type.h"
@@ -25,7 +26,8 @@ struct JsonObjectKeys {
 
 class JsonObject {
  public:
-  /// Refuses a value that is not an object, a key not in `keys` and a missing required key. Keeps references to both.
+  /// Refuses a value that is not an object, a key not in `keys`, a missing required key, and a text, number, boolean,
+  /// list or object in place of another, whether it is read or not. Keeps references to both.
   JsonObject(const JsonValue& value, const JsonObjectKeys& keys);
 
   const JsonValue& value() const { return value_; }
@@ -36,6 +38,8 @@ class JsonObject {
   double not_negative(const std::string& key) const;
   double number(const std::string& key) const;  ///< within the range of the key's type
   int whole(const std::string& key) const;      ///< the same, an integer
+  /// The same; nothing where the value is null or the key, which need not be there, is absent.
+  std::optional<double> number_or_null(const std::string& key) const;
   std::vector<double> numbers(const std::string& key, std::size_t count) const;
   bool boolean(const std::string& key) const;
   std::string text(const std::string& key) const;  ///< not empty

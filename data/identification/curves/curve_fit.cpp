@@ -36,6 +36,7 @@ double Model::rms() const {
 /// A model's numbers: those that are free in what is declared, then those of each effect; what has no spread is held.
 struct Fit::Problem {
   const Set& set;
+  const std::function<void()>& before_each;
   std::vector<std::size_t> effects;
   std::vector<EffectParameter> list;
   std::vector<std::string> labels;
@@ -75,6 +76,7 @@ struct Fit::Problem {
   }
   /// A model there, with its misfits only.
   Model at(const VectorXd& x) const {
+    if (before_each) before_each();
     Foretold told = set.foretell(free_at(x), on_at(x));
     Model out;
     out.x = x, out.misfits = std::move(told.curves), out.wider = std::move(told.open);
@@ -91,14 +93,14 @@ struct Fit::Problem {
   }
 };
 
-Fit::Fit(const Set& set, const Noise& noise, std::vector<std::vector<bool>> chosen)
-    : set_(set), noise_(noise), chosen_(std::move(chosen)) {
+Fit::Fit(const Set& set, const Noise& noise, std::vector<std::vector<bool>> chosen, std::function<void()> before_each)
+    : set_(set), noise_(noise), chosen_(std::move(chosen)), before_each_(std::move(before_each)) {
   if (chosen_.empty())
     for (const Run& run : set.runs()) chosen_.emplace_back(run.channels.size(), true);
 }
 
 Fit::Problem Fit::problem(const std::vector<std::size_t>& effects) const {
-  Problem out{set_, effects, set_.free(), {}};
+  Problem out{set_, before_each_, effects, set_.free(), {}};
   for (const EffectParameter& p : set_.free()) out.labels.push_back(p.name);
   for (std::size_t k = 0; k < effects.size(); ++k) {
     const EffectHead& head = set_.effects()[effects[k]];
@@ -342,7 +344,7 @@ void Fit::hold_out(Model& model) const {
                          [](const auto& run) { return std::any_of(run.begin(), run.end(), [](bool b) { return b; }); });
     };
     if (!any(fitted) || !any(scored)) continue;
-    const Model without = Fit(set_, noise_, fitted).run(effects, &model);
+    const Model without = Fit(set_, noise_, fitted, before_each_).run(effects, &model);
     sum += data_rows(without, noise_, scored).squaredNorm();
     for (std::size_t r = 0; r < runs; ++r)
       for (std::size_t c = 0; c < channels; ++c)

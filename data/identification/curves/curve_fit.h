@@ -1,6 +1,7 @@
 #pragma once
 /// Fits a model to the runs of a set: weighted least squares with priors and, where the noise has them, its correlation
 /// and its tails.
+#include <functional>
 #include <optional>
 
 #include "data/identification/curves/set/curve_kind.h"
@@ -42,8 +43,10 @@ struct Model {
 
 class Fit {
  public:
-  /// `chosen`: which channels of which runs are fitted; empty: all.
-  Fit(const Set& set, const Noise& noise, std::vector<std::vector<bool>> chosen = {});
+  /// `chosen`: which channels of which runs are fitted; empty: all. `before_each`: called before the law is asked; may
+  /// throw.
+  Fit(const Set& set, const Noise& noise, std::vector<std::vector<bool>> chosen = {},
+      std::function<void()> before_each = {});
 
   /// From `near`'s values of what both have, and from several starts of what is new.
   Model run(const std::vector<std::size_t>& effects, const Model* near) const;
@@ -65,6 +68,7 @@ class Fit {
   const Set& set_;
   Noise noise_;
   std::vector<std::vector<bool>> chosen_;
+  std::function<void()> before_each_;
 };
 
 }  // namespace ostium::data::curves

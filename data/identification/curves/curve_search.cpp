@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "data/identification/parallel/workers.h"
+
 namespace ostium::data::curves {
 
 namespace {
@@ -77,6 +79,12 @@ void Search::say(const std::string& what) const {
   if (options_.progress) options_.progress(what);
 }
 
+Fit Search::fit(const Set& set, const Noise& noise, const std::optional<Fault>& fault) const {
+  return Fit(set, noise, fault ? fault->chosen : std::vector<std::vector<bool>>{}, [this] {
+    if (options_.stop && options_.stop() && may_end_) throw Ended();
+  });
+}
+
 Candidate Search::candidate(const std::vector<std::size_t>& effects, const Model* near, const Noise& noise) const {
   Candidate out;
   out.set = set_;
@@ -86,15 +94,15 @@ Candidate Search::candidate(const std::vector<std::size_t>& effects, const Model
     if (std::find(out.effects.begin(), out.effects.end(), head.id) == out.effects.end()) out.effects.push_back(head.id);
   }
   if (effects.empty()) out.name = "what is declared";
-  out.model = Fit(*set_, noise).run(effects, near);
+  out.model = fit(*set_, noise).run(effects, near);
   return out;
 }
 
 void Search::judge(Candidate& c, const Candidate& declared, const Noise& noise) const {
-  const Fit fit(*c.set, noise, c.fault ? c.fault->chosen : std::vector<std::vector<bool>>{});
-  c.parameters = fit.parameters(c.model);
-  c.laws = fit.laws(c.model);
-  fit.hold_out(c.model);
+  const Fit found = fit(*c.set, noise, c.fault);
+  c.parameters = found.parameters(c.model);
+  c.laws = found.laws(c.model);
+  if (!ended_) found.hold_out(c.model);
   std::vector<Run> runs;
   std::vector<Curves> misfits;
   const std::vector<Curves> left = c.model.standardised();
@@ -112,11 +120,11 @@ void Search::judge(Candidate& c, const Candidate& declared, const Noise& noise) 
 /// The effects that may join a model, those first that promise most. Two forms of one effect are one effect.
 std::vector<std::size_t> Search::promising(const Candidate& c, std::size_t most) const {
   std::vector<std::pair<double, std::size_t>> order;
-  const Fit fit(*set_, noise_);
+  const Fit look_ahead = fit(*set_, noise_);
   for (std::size_t e = 0; e < set_->effects().size(); ++e) {
     const bool there = std::find(c.effects.begin(), c.effects.end(), set_->effects()[e].id) != c.effects.end();
     if (!there && !set_->effects()[e].law)
-      order.emplace_back(most < set_->effects().size() ? fit.ahead(c.model, e) : 0, e);
+      order.emplace_back(most < set_->effects().size() ? look_ahead.ahead(c.model, e) : 0, e);
   }
   std::stable_sort(order.begin(), order.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   if (order.size() > most) order.resize(most);
@@ -127,7 +135,7 @@ std::vector<std::size_t> Search::promising(const Candidate& c, std::size_t most)
 
 /// Adds to the best models, one effect at a time, until nothing but noise is left or nothing more helps.
 void Search::grow(std::vector<Candidate>& list, const Candidate& declared) {
-  for (std::size_t size = 1; size <= (declared.is_noise ? 1 : most_effects) && !stopped(); ++size) {
+  for (std::size_t size = 1; size <= (declared.is_noise ? 1 : most_effects); ++size) {
     std::vector<Candidate> from;
     if (size == 1) from.push_back(declared);
     sort_by_bic(list);
@@ -136,7 +144,6 @@ void Search::grow(std::vector<Candidate>& list, const Candidate& declared) {
     const double before = list.empty() ? declared.bic() : std::min(list.front().bic(), declared.bic());
     for (const Candidate& c : from)
       for (const std::size_t e : promising(c, size == 1 ? set_->effects().size() : joined)) {
-        if (stopped()) break;
         std::vector<std::size_t> effects = effects_of(c.model);
         effects.push_back(e);
         list.push_back(candidate(effects, &c.model, noise_));
@@ -172,7 +179,7 @@ void Search::add_laws(std::vector<Candidate>& list, const Candidate& declared) c
   std::vector<std::size_t> laws;
   for (std::size_t e = 0; e < set_->effects().size(); ++e)
     if (set_->effects()[e].law) laws.push_back(e);
-  if (laws.empty() || stopped()) return;
+  if (laws.empty()) return;
   sort_by_bic(list);
   std::vector<std::size_t> beside;
   if (!list.empty()) {
@@ -193,7 +200,7 @@ void Search::add_laws(std::vector<Candidate>& list, const Candidate& declared) c
   bool enough = false;
   for (const std::size_t law : laws) enough = learned({law}, &declared.model) || enough;
   for (const std::size_t law : laws) {
-    if (enough || beside.empty() || stopped()) break;
+    if (enough || beside.empty()) break;
     std::vector<std::size_t> joined = beside;
     joined.push_back(law);
     learned(joined, nullptr);
@@ -201,14 +208,14 @@ void Search::add_laws(std::vector<Candidate>& list, const Candidate& declared) c
 }
 
 /// Against the noise as it was before effects grew: what they leave of wrong data is no noise.
-void Search::add_faults(std::vector<Candidate>& list, const Candidate& declared, const Noise& noise) const {
+void Search::add_faults(std::vector<Candidate>& list, const Candidate& declared) const {
   const std::size_t runs = set_->runs().size();
   if (runs < 3) return;
   const auto tried = [&](const Fault& fault) {
     Candidate c;
     c.name = fault.what, c.effects = {fault.id}, c.set = fault.set, c.fault = fault;
     // From what is declared: a fit to data that are wrong is no place to begin at.
-    c.model = Fit(*fault.set, noise, fault.chosen).run({}, nullptr);
+    c.model = fit(*fault.set, noise_known_, fault).run({}, nullptr);
     // What was chosen among many is paid for: one of so many runs, and of so many mends.
     c.paid = 2 * std::log(static_cast<double>(runs)) + 2 * std::log(20.0);
     return c;
@@ -217,7 +224,6 @@ void Search::add_faults(std::vector<Candidate>& list, const Candidate& declared,
   std::vector<std::pair<double, std::size_t>> without;
   std::vector<Candidate> outliers;
   for (const Fault& fault : left_out(set_)) {
-    if (stopped()) return;
     outliers.push_back(tried(fault));
     without.emplace_back(outliers.back().model.per_freedom(), outliers.size() - 1);
   }
@@ -226,7 +232,6 @@ void Search::add_faults(std::vector<Candidate>& list, const Candidate& declared,
   // Mends are sought where leaving a run out helps, and among swaps of it, which leave two wrong.
   for (std::size_t k = 0; k < std::min<std::size_t>(2, runs); ++k)
     for (const Fault& fault : mends_of(root_, without[k].second)) {
-      if (stopped()) return;
       Candidate c = tried(fault);
       if (c.bic() < declared.bic() - strong) list.push_back(std::move(c));
     }
@@ -236,6 +241,20 @@ void Search::add_faults(std::vector<Candidate>& list, const Candidate& declared,
   const double gone = declared.model.measured - outlier.model.measured;
   outlier.paid += gone + std::max(5.0, gone / 50) * std::log(declared.model.measured);
   if (outlier.bic() < declared.bic() - strong) list.push_back(std::move(outlier));
+}
+
+/// Effects, laws and faults, or what was asked for.
+void Search::look(CurveExplanation& out) {
+  std::vector<Candidate>& list = out.candidates;
+  if (options_.tries.empty()) {
+    grow(list, out.declared);
+    prune(list);
+    if (!out.declared.is_noise) add_laws(list, out.declared);
+    if (!out.declared.is_noise) add_faults(list, out.declared);
+  }
+  for (const std::vector<std::string>& ids : options_.tries)
+    for (const std::vector<std::size_t>& effects : combinations(*set_, ids))
+      list.push_back(candidate(effects, &out.declared.model, noise_));
 }
 
 void Search::run(CurveExplanation& out) {
@@ -249,32 +268,27 @@ void Search::run(CurveExplanation& out) {
   const Noise own = noise_of(set_->runs(), out.declared.model.standardised(), noise_);
   if (!own.as_declared) {
     Candidate again = out.declared;
-    again.model = Fit(*set_, own).run({}, &out.declared.model);
+    again.model = fit(*set_, own).run({}, &out.declared.model);
     judge(again, again, own);
     if (again.is_noise) noise_ = own, out.declared = again;
   }
-  std::vector<Candidate>& list = out.candidates;
-  const Noise before = noise_;
-  if (options_.tries.empty()) {
-    grow(list, out.declared);
-    prune(list);
-    if (!out.declared.is_noise) add_laws(list, out.declared);
-    if (!out.declared.is_noise) add_faults(list, out.declared, before);
+  noise_known_ = noise_;
+  may_end_ = true;
+  try {
+    look(out);
+  } catch (const Ended&) {
+    ended_ = true;
   }
-  for (const std::vector<std::string>& ids : options_.tries)
-    for (const std::vector<std::size_t>& effects : combinations(*set_, ids))
-      list.push_back(candidate(effects, &out.declared.model, noise_));
+  may_end_ = false;
+  std::vector<Candidate>& list = out.candidates;
   sort_by_bic(list);
   // One noise for all: that which the best model leaves.
   const bool better = !list.empty() && list.front().bic() < out.declared.bic();
   const Candidate& best = better ? list.front() : out.declared;
-  noise_ = best.fault ? before : noise_of(set_->runs(), best.model.standardised(), noise_);
+  noise_ = best.fault ? noise_known_ : noise_of(set_->runs(), best.model.standardised(), noise_);
   out.noise = noise_;
-  if (list.size() > looked_at) list.resize(looked_at);
-  const auto again = [&](Candidate& c) {
-    const Fit fit(*c.set, noise_, c.fault ? c.fault->chosen : std::vector<std::vector<bool>>{});
-    c.model = fit.run(effects_of(c.model), &c.model);
-  };
+  if (const std::size_t most = ended_ ? 1 : looked_at; list.size() > most) list.resize(most);
+  const auto again = [&](Candidate& c) { c.model = fit(*c.set, noise_, c.fault).run(effects_of(c.model), &c.model); };
   again(out.declared);
   judge(out.declared, out.declared, noise_);
   for (Candidate& c : list) {
@@ -282,7 +296,7 @@ void Search::run(CurveExplanation& out) {
     judge(c, out.declared, noise_);
   }
   sort_by_bic(list);
-  out.ended_early = stopped();
+  out.ended_early = ended_;
 }
 
 }  // namespace ostium::data::curves

@@ -1,5 +1,7 @@
 #include "data/identification/curves/kinds.h"
 
+#include <fmt/format.h>
+
 #include "data/identification/curves/density/density.h"
 #include "data/identification/curves/pressure_diameter/pressure_diameter.h"
 #include "data/identification/curves/push_pull/push_pull.h"
@@ -26,10 +28,34 @@ const Kind* kind_of(const JsonValue& root) {
   named->refuse("a kind of measurement: " + names);
 }
 
+namespace {
+
+/// Numbers that are each in range may together foretell what is none, as friction in many bends does.
+void require_sound(const Set& set) {
+  constexpr double most = 1e12;  // as of numbers in files
+  std::vector<double> free;
+  for (const EffectParameter& p : set.free()) free.push_back(p.prior);
+  const std::vector<Curves> foretold = set.predict(free, {});
+  for (std::size_t r = 0; r < foretold.size(); ++r)
+    for (std::size_t c = 0; c < foretold[r].size(); ++c) {
+      const Run& run = set.runs()[r];
+      for (const Eigen::VectorXd* numbers : {&foretold[r][c], &run.channels[c].sigma})
+        if (!(numbers->array().abs() <= most).all())
+          throw LoadError(
+              fmt::format("{}: {}: {} or its noise would be beyond 1e12 {} with what is declared; expected "
+                          "numbers of an instrument, a rig and a path that exist",
+                          set.file, run.place, run.channels[c].key, run.channels[c].unit));
+    }
+}
+
+}  // namespace
+
 std::unique_ptr<Set> read_set(const JsonValue& root) {
   const Kind* kind = kind_of(root);
   if (!kind) root.fail("no \"kind\"; expected one whose runs are curves");
-  return kind->read(root);
+  std::unique_ptr<Set> set = kind->read(root);
+  require_sound(*set);
+  return set;
 }
 
 }  // namespace ostium::data::curves

@@ -153,10 +153,17 @@ void ModelFit::complete(FittedModel& model, std::optional<double> noise_m) {
   forward_->set_longest_element(longest_element_m_);
   FitOptions options{all_, noise_m, {fit_.x}, 1};
   options.guess_m = fit_.sigma_m, options.rounds = 2, options.noise = weighing_;
+  const Fit before = fit_;
   fit_ = fit(*forward_, parameters_, options);
-  const std::vector<std::string> others = model.other_branches;
-  model = report();
-  model.other_branches = others;
+  FittedModel finished;
+  try {
+    finished = report();
+  } catch (const Ended&) {
+    fit_ = before;
+    throw;
+  }
+  finished.other_branches = model.other_branches;
+  model = std::move(finished);
   add_residual_tests(model);
   score_held_out(options, model);
 }

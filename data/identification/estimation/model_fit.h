@@ -22,7 +22,8 @@ class ModelFit {
   FittedModel run_near(const FittedModel& near, std::optional<double> noise_m, double guess_m, int starts);
   /// Estimate of what `run_near` would reach, at a tenth of its cost (`cost_ahead`).
   double cost_ahead_near(const FittedModel& near, std::optional<double> noise_m, double guess_m);
-  /// Completes the fit that `run_near` began, and adds held-out errors and the residual tests.
+  /// Completes the fit that `run_near` began, and adds held-out errors and the residual tests. If the workers throw
+  /// Ended, the model is as it was, or complete but for the held-out errors.
   void complete(FittedModel& model, std::optional<double> noise_m);
   /// Log evidence of the fitted model (Laplace), up to a constant that is the same for all models of the same set and
   /// noise.

@@ -48,7 +48,7 @@ inline const JsonObjectKeys vessel = {
     "vessel",
     {{"mesh", true, "the mesh's file, in the set's folder, a text", json_type::text()},
      {"units", true, "the unit of the mesh", json_type::choice({"mm", "cm", "m", "in"})},
-     {"friction", true, "the coefficient of friction, >= 0", json_type::number(from_zero)}}};
+     {"friction", true, "the coefficient of friction, 0 to 2", json_type::number(from_to(0, 2))}}};
 
 inline const JsonObjectKeys imaging = {
     "imaging",

@@ -94,8 +94,7 @@ void read_environment(const JsonValue& environment, MeasurementSet& set) {
 namespace {
 
 void read_imaging(const JsonObject& entry, MeasurementSet& set) {
-  if (entry["noise_sigma_mm"].type != JsonValue::Type::null)
-    set.imaging.noise_sigma_m = entry.positive("noise_sigma_mm") * mm;
+  if (const auto noise_mm = entry.number_or_null("noise_sigma_mm")) set.imaging.noise_sigma_m = *noise_mm * mm;
   set.imaging.registration_free = entry.choice("registration", {"given", "free"}) == 1;
   set.imaging.tip_offset_free = entry.choice("tip_offset", {"none", "free"}) == 1;
 }
@@ -105,13 +104,11 @@ DeclaredEffect read_effect(const JsonValue& value, const MeasurementSet& set) {
   DeclaredEffect effect;
   effect.id = entry.text("id");
   effect.place = fmt::format("{}:{}: {}", *value.file, value.line, value.path());
-  if (entry.has("instrument") && entry["instrument"].type != JsonValue::Type::null) {
-    const double index = entry.number("instrument");
-    if (index != std::floor(index) || index < 0 || index >= static_cast<double>(set.instruments.size()))
+  if (const auto index = entry.number_or_null("instrument")) {
+    if (*index != std::floor(*index) || *index >= static_cast<double>(set.instruments.size()))
       entry["instrument"].refuse(fmt::format("the index of an instrument, 0 to {}", set.instruments.size() - 1));
-    effect.instrument = static_cast<int>(index);
+    effect.instrument = static_cast<int>(*index);
   }
-  if (entry["parameters"].type != JsonValue::Type::object) entry.refuse("parameters");
   for (const auto& [name, parameter] : entry["parameters"].members) {
     if (parameter.type != JsonValue::Type::number) parameter.refuse("a number");
     effect.parameters.emplace_back(name, parameter.number);

@@ -95,8 +95,8 @@ void read_table(const std::string& file, MeasurementSet& set) {
 
 void read_clicking(const JsonValue& value, MeasurementSet& set) {
   const JsonObject entry(value, projection_keys::imaging);
-  if (entry["noise_sigma_px"].type != JsonValue::Type::null)
-    set.imaging.noise_sigma_m = entry.positive("noise_sigma_px") * set.unit().size;
+  if (const auto noise_px = entry.number_or_null("noise_sigma_px"))
+    set.imaging.noise_sigma_m = *noise_px * set.unit().size;
   entry.choice("views", {"given"});
 }
 

@@ -93,13 +93,35 @@ Camera written_out(const JsonObject& entry) {
   return camera;
 }
 
+/// The side of the patient that letters name, strongest first: x to the left, y to the back, z to the head.
+Vector3d towards(const std::string& letters) {
+  Vector3d out = Vector3d::Zero();
+  double weight = 1;
+  for (const char letter : letters) {
+    if (const auto plus = std::string("LPH").find(letter); plus != std::string::npos) out[plus] += weight;
+    if (const auto minus = std::string("RAF").find(letter); minus != std::string::npos) out[minus] -= weight;
+    weight /= 2;
+  }
+  return out.stableNormalized();
+}
+
+/// A picture that was mirrored or turned after it was taken is not what the angles say.
+void require_sides(const std::string& file, const DicomGeometry& tags, const Camera& camera) {
+  constexpr double opposite = -0.5;  // cosine: letters are coarse
+  if (towards(tags.right_is_to).dot(camera.u) < opposite || towards(tags.down_is_to).dot(camera.v) < opposite)
+    throw LoadError(
+        fmt::format("{}: (0020,0020) PatientOrientation is {}\\{}, the opposite of what the positioner's "
+                    "angles {:g} and {:g} show; expected a picture that is not mirrored or turned",
+                    file, tags.right_is_to, tags.down_is_to, tags.primary_deg, tags.secondary_deg));
+}
+
 /// DICOM's rows go down the picture, away from the head; its columns to the patient's left in an AP view.
 Camera of_dicom(const JsonObject& entry, const std::string& set_file) {
   for (const JsonKey& key : projection_keys::view.keys)
     if (key.name != "id" && key.name != "dicom" && key.name != "isocentre_mm" && entry.has(key.name))
       entry[key.name].fail(fmt::format("{}.{} and dicom; expected one of them", entry.value().path(), key.name));
-  const DicomGeometry tags =
-      read_dicom_geometry((std::filesystem::path(set_file).parent_path() / entry.text("dicom")).string());
+  const std::string file = (std::filesystem::path(set_file).parent_path() / entry.text("dicom")).string();
+  const DicomGeometry tags = read_dicom_geometry(file);
   const Vector3d isocentre =
       entry.has("isocentre_mm") ? Vector3d(vector3(entry["isocentre_mm"]) * mm) : Vector3d(Vector3d::Zero());
   const GantryAngles angles{tags.primary_deg * degree, tags.secondary_deg * degree};
@@ -108,6 +130,7 @@ Camera of_dicom(const JsonObject& entry, const std::string& set_file) {
   camera.pixel_m = tags.pixel_mm * mm, camera.columns = tags.columns, camera.rows = tags.rows;
   camera.u = {std::cos(angles.primary_rad), std::sin(angles.primary_rad), 0};
   camera.v = camera.u.cross(outwards);
+  require_sides(file, tags, camera);
   camera.source_m = isocentre - tags.source_to_isocentre_mm * mm * outwards;
   const Vector3d middle = camera.source_m + tags.source_to_detector_mm * mm * outwards;
   const Eigen::Vector2d half = camera.pixel_m * camera.middle_px();

@@ -9,8 +9,9 @@
 
 namespace ostium::data {
 
-Workers::Workers(int threads)
-    : threads_(threads > 0 ? threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()) / ranks())) {}
+Workers::Workers(int threads, std::function<void()> before_each)
+    : threads_(threads > 0 ? threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()) / ranks())),
+      before_each_(std::move(before_each)) {}
 
 std::vector<std::vector<double>> Workers::map(std::size_t count, const Job& job) const {
   std::vector<std::vector<double>> results(count);
@@ -20,6 +21,7 @@ std::vector<std::vector<double>> Workers::map(std::size_t count, const Job& job)
   std::mutex throwing;
   const auto work = [&] {
     for (std::size_t k = next++; first + k * step < count; k = next++) try {
+        if (before_each_) before_each_();
         results[first + k * step] = job(first + k * step);
       } catch (...) {
         const std::lock_guard lock(throwing);

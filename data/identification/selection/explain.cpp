@@ -96,26 +96,43 @@ std::vector<ActiveEffect> tried_effects(const MeasurementSet& set, const FittedM
 
 bool ends(const ExplainOptions& options) { return options.stop && options.stop(); }
 
+/// Of what is fitted in any case: `stop` is told that the work goes on.
+Workers workers_to_the_end(const ExplainOptions& options) {
+  return Workers(options.threads, [&options] { ends(options); });
+}
+
+/// Of what may be left: they throw Ended.
+Workers workers_until_ended(const ExplainOptions& options) {
+  return Workers(options.threads, [&options] {
+    if (ends(options)) throw Ended();
+  });
+}
+
 /// Searches the effects one by one: whether any explains all experiments alone.
-void search_single_effects(const MeasurementSet& set, const Workers& workers, const ExplainOptions& options,
-                           const ModelFit& declared, Explanation& out) {
-  EffectSearch search(set, workers, options.progress, options.stop);
+void search_single_effects(const MeasurementSet& set, const ExplainOptions& options, const ModelFit& declared,
+                           Explanation& out) {
+  const Workers workers = workers_until_ended(options);
+  EffectSearch search(set, workers, options.progress);
   out.candidates = search.run(declared, out.declared, out.noise, 1);
-  out.ended_early = ends(options);
+  out.ended_early = search.ended();
 }
 
 /// Searches the effects, laws where these leave something, and the fields that have no name.
-void search_effects(const MeasurementSet& set, const Workers& workers, const ExplainOptions& options,
-                    const ModelFit& declared, Explanation& out) {
-  EffectSearch search(set, workers, options.progress, options.stop);
+void search_effects(const MeasurementSet& set, const ExplainOptions& options, const ModelFit& declared,
+                    Explanation& out) {
+  const Workers workers = workers_until_ended(options);
+  EffectSearch search(set, workers, options.progress);
   out.candidates = search.run(declared, out.declared, out.noise);
-  out.ended_early = ends(options);
+  out.ended_early = search.ended();
   // In a vessel fields take hundreds of histories, and are not asked where an effect explains all.
   const bool explained =
       set.vessel && std::any_of(out.candidates.begin(), out.candidates.end(),
                                 [&](const FittedModel& c) { return wins(c, out.declared, out.noise); });
-  if (!out.ended_early && !explained)
-    out.attributions = attribute_residual(set, workers, out.declared, {}, out.noise, options.progress);
+  if (!out.ended_early && !explained) try {
+      out.attributions = attribute_residual(set, workers, out.declared, {}, out.noise, options.progress);
+    } catch (const Ended&) {
+      out.ended_early = true;
+    }
   out.signature = signature_of(out.attributions);
 }
 
@@ -131,7 +148,7 @@ std::optional<Explanation> explained_by_noise(const MeasurementSet& set, const W
   declared.weigh_by(out.noise);
   out.declared = declared.run(other->sigma);
   declared.judge(out.declared, out.noise);
-  search_effects(set, workers, options, declared, out);
+  search_effects(set, options, declared, out);
   if (out.ended_early || !out.noise.model) return {};
   decide(set, workers, out);
   const bool field =
@@ -141,11 +158,10 @@ std::optional<Explanation> explained_by_noise(const MeasurementSet& set, const W
 }
 
 /// Whether a law alone leaves only noise as it is declared: then no effect with another noise is believed.
-bool a_law_leaves_noise(const MeasurementSet& set, const Workers& workers, const ExplainOptions& options,
-                        const Explanation& x) {
+bool a_law_leaves_noise(const MeasurementSet& set, const ExplainOptions& options, const Explanation& x) {
   if (!x.noise.sigma_m) return false;
+  const Workers workers = workers_until_ended(options);
   for (const ActiveEffect& law : laws_to_try(set)) {
-    if (ends(options)) return false;
     ModelFit fit(set, workers, {law}, options.progress);
     FittedModel learned = fit.run(x.noise.sigma_m);
     fit.judge(learned, x.noise);
@@ -155,18 +171,20 @@ bool a_law_leaves_noise(const MeasurementSet& set, const Workers& workers, const
 }
 
 /// Describes what the best model leaves beyond noise.
-void describe_remaining(const MeasurementSet& set, const Workers& workers, const ExplainOptions& options,
-                        Explanation& out) {
+void describe_remaining(const MeasurementSet& set, const ExplainOptions& options, Explanation& out) {
   if (out.verdict != Verdict::mostly && out.verdict != Verdict::unexplained) return;
   if (!out.noise.sigma_m) return;
   Remaining left;
   left.share = 1 - share_removed(misfit_of(out.declared), misfit_of(out.best())).value_or(1);
   left.signature = out.signature;
   std::vector<ResidualAttribution> fields = out.attributions;
-  if (out.adds_effects && !out.ended_early) {
-    fields = attribute_residual(set, workers, out.best(), tried_effects(set, out.best()), out.noise, options.progress);
-    left.signature = signature_of(fields);
-  }
+  if (out.adds_effects && !out.ended_early) try {
+      fields = attribute_residual(set, workers_until_ended(options), out.best(), tried_effects(set, out.best()),
+                                  out.noise, options.progress);
+      left.signature = signature_of(fields);
+    } catch (const Ended&) {
+      out.ended_early = true;
+    }
   left.text = remaining_text(out, fields, left);
   out.remaining = left;
   if (!out.next_experiment) out.next_experiment = where_most_is_left(set, out.best());
@@ -184,7 +202,7 @@ Explanation without_fault(const Mended& mended, const ExplainOptions& options) {
 }
 
 Explanation explain_mended(const MeasurementSet& set, const ExplainOptions& options, bool looks_for_faults) {
-  const Workers workers(options.threads);
+  const Workers workers = workers_to_the_end(options);
   Explanation out;
   out.declared_sigma_m = set.imaging.noise_sigma_m;
   out.unit = set.unit();
@@ -196,21 +214,24 @@ Explanation explain_mended(const MeasurementSet& set, const ExplainOptions& opti
   declared.judge(out.declared, out.noise);
   const bool done = out.noise.sigma_m && is_noise(out.declared, out.noise) && !too_small(set, out.declared);
   std::optional<Mended> fault;
-  if (!done && looks_for_faults && !ends(options))
-    fault = find_fault(set, workers, out.declared, out.noise, options.progress);
-  if (fault && !fault->left_out) return without_fault(*fault, options);
   std::optional<Explanation> by_noise;
-  if (!done && !fault && !ends(options)) by_noise = explained_by_noise(set, workers, options, out);
-  if (by_noise && by_noise->verdict == Verdict::effect && a_law_leaves_noise(set, workers, options, out))
-    by_noise.reset();
+  try {
+    const Workers until_ended = workers_until_ended(options);
+    if (!done && looks_for_faults) fault = find_fault(set, until_ended, out.declared, out.noise, options.progress);
+    if (!done && !fault) by_noise = explained_by_noise(set, until_ended, options, out);
+    if (by_noise && by_noise->verdict == Verdict::effect && a_law_leaves_noise(set, options, out)) by_noise.reset();
+  } catch (const Ended&) {
+    if (by_noise) by_noise->ended_early = true;
+  }
+  if (fault && !fault->left_out) return without_fault(*fault, options);
   if (by_noise) {
     out = std::move(*by_noise);
   } else {
     // An effect that explains all experiments is believed before one of them is given up.
-    if (!done) (fault ? search_single_effects : search_effects)(set, workers, options, declared, out);
+    if (!done) (fault ? search_single_effects : search_effects)(set, options, declared, out);
     decide(set, workers, out);
     if (fault && out.verdict != Verdict::effect && !out.ended_early) return without_fault(*fault, options);
-    describe_remaining(set, workers, options, out);
+    describe_remaining(set, options, out);
   }
   warn_of_scales(out.best(), out.warnings);
   out.verdict_text = verdict_text(set, out);
@@ -236,7 +257,7 @@ Explanation explain(const MeasurementSet& set, const ExplainOptions& options) {
   std::vector<std::vector<ActiveEffect>> tries;
   for (const auto& words : options.tries)
     for (const auto& candidate : candidates_of(words, set)) tries.push_back(candidate);
-  const Workers workers(options.threads);
+  const Workers workers = workers_to_the_end(options);
   Explanation out;
   out.declared_sigma_m = set.imaging.noise_sigma_m;
   out.unit = set.unit();
@@ -246,12 +267,15 @@ Explanation explain(const MeasurementSet& set, const ExplainOptions& options) {
   out.nominal_misfits = declared.misfits_at_start();
   out.rms_nominal_m = rms(set, out.nominal_misfits);
   std::deque<ModelFit> model_fits;
-  for (const auto& tried : tries) {
-    out.ended_early = options.stop && options.stop();
-    if (out.ended_early) break;
-    model_fits.emplace_back(set, workers, tried, options.progress);
-    out.candidates.push_back(model_fits.back().run(set.imaging.noise_sigma_m));
-  }
+  const Workers until_ended = workers_until_ended(options);
+  for (const auto& tried : tries) try {
+      model_fits.emplace_back(set, until_ended, tried, options.progress);
+      out.candidates.push_back(model_fits.back().run(set.imaging.noise_sigma_m));
+    } catch (const Ended&) {
+      out.ended_early = true;
+      model_fits.pop_back();
+      break;
+    }
   // The model with the smallest residual gives the best noise estimate.
   const FittedModel* closest = &out.declared;
   for (const FittedModel& c : out.candidates)
@@ -267,7 +291,11 @@ Explanation explain(const MeasurementSet& set, const ExplainOptions& options) {
   const FittedModel* first = open && !out.candidates.empty() ? &out.candidates.front() : nullptr;
   const bool won = first && wins(*first, out.declared, out.noise);
   const bool most = first && !won && !fits && out.noise.sigma_m && removes_most_of_it(out, *first);
-  if (most) out.attributions = attribute_residual(set, workers, out.declared, {}, out.noise, options.progress);
+  if (most && !out.ended_early) try {
+      out.attributions = attribute_residual(set, until_ended, out.declared, {}, out.noise, options.progress);
+    } catch (const Ended&) {
+      out.ended_early = true;
+    }
   if (won)
     out.verdict = Verdict::effect, out.adds_effects = true;
   else if (most && removes_most_of_it(out, *first))  // with more evidence than a field without a name
@@ -276,7 +304,7 @@ Explanation explain(const MeasurementSet& set, const ExplainOptions& options) {
     out.verdict = without_an_effect(fits, out.noise.sigma_m.has_value());
   if (out.verdict == Verdict::cannot_be_judged) out.next_experiment = repeat_for_noise(set);
   out.signature = out.declared.residual_tests.signature;
-  describe_remaining(set, workers, options, out);
+  describe_remaining(set, options, out);
   out.warnings = copies_in_words(measured_numbers(set));
   if (const std::optional<Mended> lengths = mend_lengths(set, out.warnings))
     for (const DataFault& f : lengths->faults) out.warnings.push_back(f.what + ": " + f.mend + ".");

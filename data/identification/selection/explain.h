@@ -13,8 +13,8 @@ struct ExplainOptions {
   std::function<void(const std::string&)> progress;
   /// If the declared model does not fit: search all effects and their combinations instead.
   bool library = false;
-  /// Asked between fits: true ends the search with what it has found; empty: never. Not under MPI, whose ranks would
-  /// part.
+  /// Asked before each shape or history, from any thread: true ends the search with what it has found, once what is
+  /// declared is fitted; empty: never. Not under MPI, whose ranks would part.
   std::function<bool()> stop = {};
 };
 

@@ -91,7 +91,7 @@ std::optional<double> sigma_to_fit_by(const MeasurementSet& set, const Noise& no
 
 void EffectSearch::for_each(std::size_t count, const std::function<void(std::size_t)>& model) const {
   if (set_.vessel && ranks() == 1)
-    workers_.map(count, [&](std::size_t k) { return model(k), std::vector<double>{}; });
+    Workers(workers_.threads()).map(count, [&](std::size_t k) { return model(k), std::vector<double>{}; });
   else
     for (std::size_t k = 0; k < count; ++k) model(k);
 }
@@ -107,7 +107,7 @@ void EffectSearch::add(const std::vector<std::vector<ActiveEffect>>& models, con
     fits_.back().weigh_by(noise);
   }
   const auto fit = [&](std::size_t k) {
-    if (stopped()) return;
+    if (ended_) return;
     const std::vector<ActiveEffect>& effects = fresh[k].effects;
     // A law begins as what is declared: its numbers are many, and all about zero.
     const bool law = std::any_of(effects.begin(), effects.end(), [](const ActiveEffect& e) { return e.effect->law; });
@@ -117,6 +117,8 @@ void EffectSearch::add(const std::vector<std::vector<ActiveEffect>>& models, con
           fresh[k].study->run_near(near, sigma_to_fit_by(set_, noise), near.rms_m / std::sqrt(2.0), starts);
       fresh[k].fitted = true;
     } catch (const std::runtime_error&) {  // no shapes with this effect
+    } catch (const Ended&) {
+      ended_ = true;
     }
     countdown->one_done();
   };
@@ -136,6 +138,9 @@ double EffectSearch::cost_ahead_of(const std::vector<ActiveEffect>& effects, con
     return study.cost_ahead_near(near, sigma_to_fit_by(set_, noise), near.rms_m / std::sqrt(2.0));
   } catch (const std::runtime_error&) {
     return std::numeric_limits<double>::infinity();
+  } catch (const Ended&) {
+    ended_ = true;
+    return std::numeric_limits<double>::infinity();
   }
 }
 
@@ -153,7 +158,7 @@ void EffectSearch::add_to(const Tried* base, const FittedModel& near, const Nois
   }
   // At rest all single effects are fitted; to a model with effects, and in a vessel, where a fit takes some forty
   // histories and a look ahead a few, only the most promising.
-  if ((base || set_.vessel) && joined.size() > ahead && !stopped()) {
+  if ((base || set_.vessel) && joined.size() > ahead && !ended_) {
     if (progress_) progress_(fmt::format("which of {} effects promise most", joined.size()));
     for_each(joined.size(), [&](std::size_t k) { joined[k].first = cost_ahead_of(joined[k].second, near, noise); });
     std::sort(joined.begin(), joined.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
@@ -180,10 +185,14 @@ bool EffectSearch::is_worth_folds(const Tried& tried) const {
 }
 
 void EffectSearch::complete(Tried& tried, const Noise& noise) {
-  if (tried.complete || stopped() || !is_worth_folds(tried)) return;
+  if (tried.complete || ended_ || !is_worth_folds(tried)) return;
   tried.complete = true;
   tried.study->weigh_by(noise);
-  tried.study->complete(tried.model, sigma_to_fit_by(set_, noise));
+  try {
+    tried.study->complete(tried.model, sigma_to_fit_by(set_, noise));
+  } catch (const Ended&) {
+    ended_ = true;
+  }
   tried.study->judge(tried.model, noise);
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 /// Searches all available effects for those that a set shows: singly, then in combination.
+#include <atomic>
 #include <deque>
 
 #include "data/identification/estimation/model_fit.h"
@@ -9,16 +10,17 @@ namespace ostium::data {
 
 class EffectSearch {
  public:
+  /// `workers` may throw Ended: then what was being fitted is left as it was, and nothing more is.
   EffectSearch(const MeasurementSet& set, const Workers& workers,
-               const std::function<void(const std::string&)>& progress, const std::function<bool()>& stop = {})
-      : set_(set), workers_(workers), progress_(progress), stop_(stop) {}
+               const std::function<void(const std::string&)>& progress)
+      : set_(set), workers_(workers), progress_(progress) {}
 
   /// Models with effects, best first, finalists scored on held-out data (in a vessel those not far behind). Refines
   /// `noise` if it was estimated; replaces it where what the best models leave goes with nothing that was varied and
-  /// yet is no noise as declared. Once `stop` says true nothing more is fitted. `most_effects`: in a model, where the
-  /// noise is known.
+  /// yet is no noise as declared. `most_effects`: in a model, where the noise is known.
   std::vector<FittedModel> run(const ModelFit& declared, FittedModel& of_declared, Noise& noise,
                                std::size_t most_effects = 3);
+  bool ended() const { return ended_; }
 
  private:
   struct Tried {
@@ -27,7 +29,6 @@ class EffectSearch {
     std::vector<ActiveEffect> effects;
     bool fitted = false, complete = false;
   };
-  bool stopped() const { return stop_ && stop_(); }
   /// At rest the shapes of one model are found side by side; in a vessel its histories come one after the other, and
   /// models side by side.
   void for_each(std::size_t count, const std::function<void(std::size_t)>& model) const;
@@ -55,7 +56,7 @@ class EffectSearch {
   const MeasurementSet& set_;
   const Workers& workers_;
   std::function<void(const std::string&)> progress_;
-  std::function<bool()> stop_;
+  std::atomic<bool> ended_ = false;
   std::deque<ModelFit> fits_;
   std::deque<Tried> tried_;
 };

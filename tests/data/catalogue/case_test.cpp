@@ -81,6 +81,9 @@ TEST(Case, ALesionThatDoesNotFitIsRefusedWithWhatExists) {
                {"folder/small.json:9: lesions[0].stenosis_percent", "120", "at most 95"});
   expect_words(case_refusal("\"RCA\"", "\"RAC\""),
                {"folder/small.json:9: lesions[0]", "no branch \"RAC\"", "LAD", "LCx", "RCA", "PDA"});
+  for (const char* branch : {"\"aorta\"", "\"right iliac\""})
+    expect_words(case_refusal("\"RCA\"", branch),
+                 {"folder/small.json:9: lesions[0].branch is ", branch, "a coronary artery"});
 }
 
 TEST(Case, LesionsThatShareAStretchAreRefused) {

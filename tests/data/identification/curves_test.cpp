@@ -10,6 +10,7 @@
 #include "data/identification/curves/kinds.h"
 #include "data/identification/curves/set/run_table.h"
 #include "data/identification/curves/three_point_bend/three_point_bend.h"
+#include "tests/data/refusals.h"
 #include "tests/support/sets/bench_set.h"
 
 namespace ostium::data {
@@ -137,6 +138,16 @@ TEST_F(Tabled, AreReadAsTheListsThatTheyStandFor) {
   EXPECT_EQ(tabled->runs()[0].channels[0].measured, whole->runs()[0].channels[0].measured);
 }
 
+TEST_F(Tabled, AreReadAsSpreadsheetsWriteThem) {
+  const std::string table = table_.substr(table_.find('\n') + 1);
+  const Eigen::VectorXd whole = curves::read_set(read())->runs()[0].along;
+  table_ = "sep=;\r\n" + table;
+  EXPECT_EQ(curves::read_set(read())->runs()[0].along, whole);
+  table_ = table;
+  std::replace(table_.begin(), table_.end(), '\n', '\r');
+  EXPECT_EQ(curves::read_set(read())->runs()[0].along, whole);
+}
+
 TEST_F(Tabled, AreReadStrictly) {
   const std::string table = table_;
   const auto with = [&](const std::string& from, const std::string& to) {
@@ -146,7 +157,12 @@ TEST_F(Tabled, AreReadStrictly) {
   with("force_N", "load_N"), expect_refused({"run 1.csv:2: runs[0].load_N is not a key"});
   with("force_N", "time_s"), expect_refused({"run 1.csv:2: column \"time_s\"", "before"});
   with("force_N", "force_N[1]"), expect_refused({"run 1.csv:2: column \"force_N[1]\"", "force_N[0]"});
+  with("force_N", "Load [N]"), expect_refused({"run 1.csv:2: runs[0].Load [N] is not a key", "force_N"});
   table_ = table + "1;2\n", expect_refused({"run 1.csv:", "2 fields"});
+  table_ = "Machine;4\n" + table, expect_refused({"run 1.csv:3: 3 fields", "header in line 1", "begins with #"});
+  table_ = "1;2;3\n4;5;6\n", expect_refused({"run 1.csv:1: the first line has no names"});
+  table_ = std::string("\xFF\xFE", 2) + table, expect_refused({"run 1.csv: is UTF-16; save it as UTF-8"});
+  table_ = table + std::string("1;\0;2\n", 6), expect_refused({"run 1.csv:", "holds a byte 0"});
   table_ = table + "1;much;2\n", expect_refused({"run 1.csv:", "time_s is \"much\""});
   table_ = "time_s;displacement_mm\n1;2\n2;3\n3;4\n4;5\n", expect_refused({"runs[0].force_N is missing", "csv"});
   table_ = table, file_["runs"][0]["time_s"] = {1, 2, 3};
@@ -180,6 +196,40 @@ TEST(Curves, BadInputIsNamed) {
          f["effects"] = {{{"id", "magic"}, {"parameters", nlohmann::json::object()}}};
        }),
        "an effect that can show in this set");
+  says(refused([](auto& f) {
+         f["effects"] = {{{"id", "support_friction"}, {"parameters", {{"friction", "0.2"}}}}};
+       }),
+       "effects[0].parameters.friction is \"0.2\"; expected a number");
+}
+
+/// Places of single values; of a list the first element stands for all.
+void places_of(const nlohmann::json& value, const nlohmann::json::json_pointer& at,
+               std::vector<nlohmann::json::json_pointer>& out) {
+  out.push_back(at);
+  if (value.is_object())
+    for (const auto& [key, member] : value.items()) places_of(member, at / key, out);
+  else if (value.is_array() && !value.empty())
+    places_of(value[0], at / 0, out);
+}
+
+TEST(Curves, AValueOfAnotherSortIsRefusedWhereverItStands) {
+  for (const synthetic::BenchKind& kind : synthetic::bench_kinds()) {
+    const auto good = nlohmann::json::parse(kind.make("clean", 0, 1).json);
+    std::vector<nlohmann::json::json_pointer> places;
+    places_of(good, nlohmann::json::json_pointer(""), places);
+    for (const auto& place : places)
+      for (const char* other : {"\"0.004\"", "true", "[0.004]", "{}", "null"}) {
+        auto file = good;
+        auto& value = file[place];
+        const auto put = nlohmann::json::parse(other);
+        const std::string at = place.to_string();
+        const bool may_be_null = at.starts_with("/noise") || at.find("stiffness_N") != std::string::npos;
+        if (value.type() == put.type() || (put.is_null() && may_be_null)) continue;
+        value = put;
+        EXPECT_NE(refusal_of([&] { curves::read_set(parse_json("set.json", file.dump())); }), "accepted")
+            << kind.name << ": " << other << " at " << place;
+      }
+  }
 }
 
 }  // namespace

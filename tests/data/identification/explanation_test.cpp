@@ -147,6 +147,30 @@ TEST(Explanation, EndedEarlyItTellsWhatItHas) {
   EXPECT_TRUE(nlohmann::json::parse(to_json(x))["ended_early"].get<bool>());
 }
 
+/// A fold, or the fit of a law, takes minutes in large sets.
+TEST(Explanation, ItEndsWithinAFit) {
+  MeasurementSet set = synthetic::free_wire(12), world = set;
+  world.instruments[0].sections[1].rest_curvature_per_m = {0, 0.2, 0};
+  synthetic::measure(world, stiffness(1, 1, 3));
+  set.experiments = world.experiments;
+  ExplainOptions options;
+  options.library = true, options.threads = 1;
+  std::vector<std::string> after;
+  std::atomic<bool> ended = false;
+  options.progress = [&](const std::string& words) {
+    if (ended) after.push_back(words);
+    // The first of an effect: what is declared is fitted in any case.
+    if (words.find("fold 1") != std::string::npos && words.find("what is declared") == std::string::npos) ended = true;
+  };
+  options.stop = [&] { return ended.load(); };
+  const Explanation x = explain(set, options);
+  EXPECT_TRUE(ended && x.ended_early);
+  EXPECT_TRUE(after.empty()) << after.size() << ", " << after[0];
+  ASSERT_FALSE(x.candidates.empty());
+  EXPECT_TRUE(std::none_of(x.candidates.begin(), x.candidates.end(),
+                           [](const FittedModel& c) { return c.rms_held_out_m.has_value(); }));
+}
+
 /// Without an effect, none is found.
 TEST(Explanation, AnEffectThatIsNotThereDoesNotWin) {
   MeasurementSet set = synthetic::two_tubes(16);

@@ -280,6 +280,47 @@ TEST(Projections, AViewOfAFrameSeesWhatTheRendererSees) {
   expect_words(refusal_of([&] { read_dicom_geometry((folder.path / "none.dcm").string()); }), {"cannot be read"});
 }
 
+struct Tag {
+  std::uint16_t group, element;
+  std::string bytes() const { return {char(group & 255), char(group >> 8), char(element & 255), char(element >> 8)}; }
+};
+
+/// Writes another value, of an even length, into a file of explicit little endian, under the tag `as`.
+void retag(const std::string& file, const Tag& tag, const Tag& as, const std::string& value) {
+  std::ifstream in(file, std::ios::binary);
+  std::string bytes((std::istreambuf_iterator<char>(in)), {});
+  const auto at = bytes.find(tag.bytes());  // two bytes of its kind and two of its length come before the value
+  ASSERT_NE(at, std::string::npos) << file;
+  bytes.replace(at + 8, static_cast<unsigned char>(bytes[at + 6]), value);
+  bytes[at + 6] = static_cast<char>(value.size());
+  bytes.replace(at, 4, as.bytes());
+  std::ofstream(file, std::ios::binary) << bytes;
+}
+
+TEST(Projections, TagsThatNoPictureOfACArmHasAreRefusedByName) {
+  const SetFolder folder;
+  const std::string frame = (folder.path / "frame.dcm").string();
+  Json file = seen_file();
+  file["views"] = {{{"id", "A"}, {"dicom", "frame.dcm"}}};
+  const std::string set = folder.write("measurement.json", file.dump());
+  const auto under = [&](const Tag& tag, const Tag& as, const std::string& value) {
+    write_dicom(frame, frame_at(-30, 20));
+    retag(frame, tag, as, value);
+    return refusal_of([&] { load_measurement(set); });
+  };
+  const auto with = [&](const Tag& tag, const std::string& value) { return under(tag, tag, value); };
+  const Tag body_part{0x18, 0x15}, orientation{0x20, 0x20};
+  expect_words(with({0x18, 0x1510}, "-300"), {"frame.dcm", "PositionerPrimaryAngle is -300", "-180 to 180"});
+  expect_words(with({0x18, 0x1511}, "1e300 "), {"PositionerSecondaryAngle is 1e+300", "-90 to 90"});
+  expect_words(with({0x08, 0x60}, "CT"), {"Modality is \"CT\"", "XA or RF"});
+  expect_words(under(body_part, {0x18, 0x1500}, "DYNAMIC "), {"PositionerMotion is DYNAMIC", "C-arm"});
+  expect_words(under(body_part, {0x18, 0x1134}, "DYNAMIC "), {"TableMotion is DYNAMIC", "table"});
+  for (const char* mirrored : {"RP\\FP ", "LA\\H"})
+    expect_words(with(orientation, mirrored), {"PatientOrientation is ", "mirrored"});
+  for (const char* coarse : {"L\\F ", "LA\\FP "})
+    EXPECT_EQ(with(orientation, coarse).find("PatientOrientation"), std::string::npos) << coarse;
+}
+
 /// The clicked points of the true wire lie on the prediction with the true stiffness: 1 px is 0.2 mm.
 TEST(Projections, APredictionLiesWhereTheOtherSolverIsSeen) {
   MeasurementSet set = seen_set();

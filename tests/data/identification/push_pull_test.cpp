@@ -271,6 +271,12 @@ TEST(PushPull, BadInputIsNamed) {
   expect_words(refused([](Json& f) { f["runs"][2]["speed"] = 1; }), {"runs[2]", "speed"});
   expect_words(refused([](Json& f) { f["runs"][1]["hand_force_N"].erase(0); }),
                {"runs[1].hand_force_N", "expected", "inserted_mm"});
+  expect_words(refused([](Json& f) { f["rig"]["friction"] = 10; }), {"rig.friction is 10", "at most 2"});
+  expect_words(refused([](Json& f) {
+                 f["rig"]["friction"] = 2;
+                 f["runs"][0]["path"]["bends"] = {{{"at_mm", 0}, {"radius_mm", 5}, {"angle_deg", 3600}}};
+               }),
+               {"runs[0]: hand_force_N", "beyond 1e12 N"});
   expect_words(refused([](Json& f) { f["runs"][0]["path"]["bore_mm"] = 0.3; }), {"runs[0].path.bore_mm", "0.356"});
   expect_words(refused([](Json& f) { f["runs"][0]["path"]["bends"][1]["angle_deg"] = 1.57; }),
                {"runs[0].path.bends[1].angle_deg", "radians"});

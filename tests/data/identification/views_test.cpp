@@ -66,6 +66,19 @@ TEST(Views, AnAngleIsFoundAmongAllEffects) {
   EXPECT_LT(judged.after, 1.2);
 }
 
+TEST(Views, ExchangedOnesAreNamed) {
+  MeasurementSet set = synthetic::undeclared_set("views:clean", 1).set;
+  std::swap(set.views[0].camera, set.views[1].camera);
+  set.experiments.resize(4);
+  ExplainOptions options;
+  options.library = true;
+  const Explanation x = explain(set, options);
+  ASSERT_EQ(x.faults.size(), 1U);
+  EXPECT_EQ(x.faults[0].id, "swapped_views");
+  EXPECT_NEAR(*x.best().chi2_per_dof, 1, 0.2);
+  EXPECT_TRUE(x.best().effects.empty());
+}
+
 /// A frame that is off along gravity looks the same, and both are said, each once.
 TEST(Views, ATableThatSagsIsAmbiguous) {
   const synthetic::Judged judged = synthetic::judge("views:table_sag", 1, 0);

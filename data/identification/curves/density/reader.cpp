@@ -203,7 +203,7 @@ std::unique_ptr<curves::Set> read(const JsonValue& file) {
   setup.m2_per_kg = detector.positive("mm2_per_mg");
   setup.dispersion_m3 = root.not_negative("dispersion_mm3") * mm3;
   View view{{}, detector.boolean("linear")};
-  if (root["noise_sigma_mm"].type != JsonValue::Type::null) view.noise_mm = root.positive("noise_sigma_mm");
+  view.noise_mm = root.number_or_null("noise_sigma_mm");
   std::vector<curves::Run> runs;
   for (const JsonValue& value : root.list("runs")) runs.push_back(read_run(value, view, setup, runs));
   if (runs.empty()) root.refuse("runs");

@@ -75,7 +75,6 @@ void must_rise(const JsonObject& entry, const std::string& key, const VectorXd& 
 
 void read_balloon(const JsonValue& value, Setup& setup) {
   const JsonObject entry(value, balloon_keys), chart(entry["chart"], chart_keys);
-  entry.text("name");
   const VectorXd p = curves::read_samples(chart, "pressure_atm"),
                  d = curves::read_samples_like(chart, "diameter_mm", p, "pressure_atm");
   must_rise(chart, "pressure_atm", p), must_rise(chart, "diameter_mm", d);
@@ -141,6 +140,7 @@ curves::Run read_run(const JsonValue& value, const JsonObject& noise, bool place
   const VectorXd pressure = curves::read_samples_like(entry, "pressure_atm", inflation.time_s, "time_s");
   inflation.pressure_Pa = pressure * atm;
   check_pressures(entry, setup, inflation);
+  const auto diameter_mm = noise.number_or_null("diameter_mm"), pressure_atm = noise.number_or_null("pressure_atm");
   const std::vector<JsonValue>& lists = curves::samples(entry, "diameter_mm").items;
   if (places && lists.size() != setup.place_m.size())
     entry["diameter_mm"].refuse(fmt::format("{} lists, one for each of places_mm", setup.place_m.size()));
@@ -151,13 +151,12 @@ curves::Run read_run(const JsonValue& value, const JsonObject& noise, bool place
       channel.label = fmt::format("diameter at {:g} mm", setup.place_m[i] / mm);
     }
     channel.measured = read_diameters(places ? lists[i] : entry["diameter_mm"], inflation);
-    if (noise["diameter_mm"].type == JsonValue::Type::number && noise["pressure_atm"].type == JsonValue::Type::number) {
+    if (diameter_mm && pressure_atm) {
       // Noise of the pressure is seen as one of the diameter, by the slope of the chart.
       channel.sigma.resize(pressure.size());
       for (Eigen::Index k = 0; k < pressure.size(); ++k)
         channel.sigma[k] =
-            std::hypot(noise.positive("diameter_mm"),
-                       noise.not_negative("pressure_atm") * atm * setup.chart.slope(inflation.pressure_Pa[k]) / mm);
+            std::hypot(*diameter_mm, *pressure_atm * atm * setup.chart.slope(inflation.pressure_Pa[k]) / mm);
     }
     run.channels.push_back(channel);
   }

@@ -24,8 +24,9 @@ const JsonObjectKeys set_keys = {
                       {"noise", true, "standard deviations, an object", json_type::object("push_noise")},
                       {"runs", true, curves::one_or_more, json_type::list_of(json_type::object("push_run"), 1)}})};
 
-const JsonObjectKeys rig_keys = {
-    "push_rig", {{"friction", true, "the coefficient of friction at the walls, > 0", json_type::number(above_zero)}}};
+const JsonObjectKeys rig_keys = {"push_rig",
+                                 {{"friction", true, "the coefficient of friction at the walls, > 0 and at most 2",
+                                   json_type::number(above_zero_to(2))}}};
 
 const JsonObjectKeys noise_keys = {
     "push_noise",
@@ -141,15 +142,14 @@ curves::Run read_run(const JsonValue& value, const JsonObject& noise, Setup& set
       travel_of(passage.inserted_m) < static_cast<double>(run.samples() - 1) * setup.walls->spacing_m(path) / 2;
   curves::Channel hand{"hand_force_N", "force at the hand", "N", {}, {}};
   hand.measured = curves::read_samples_like(entry, "hand_force_N", run.along, "inserted_mm");
-  if (noise["hand_force_N"].type == JsonValue::Type::number) {
-    hand.sigma = VectorXd::Constant(run.samples(), noise.positive("hand_force_N"));
-    const bool tip =
-        entry.has("tip_force_N") && noise.has("tip_force_N") && noise["tip_force_N"].type == JsonValue::Type::number;
-    for (Eigen::Index k = 0; k < run.samples() && tip; ++k) {
+  const auto hand_N = noise.number_or_null("hand_force_N"), tip_N = noise.number_or_null("tip_force_N");
+  if (hand_N) {
+    hand.sigma = VectorXd::Constant(run.samples(), *hand_N);
+    for (Eigen::Index k = 0; k < run.samples() && tip_N && entry.has("tip_force_N"); ++k) {
       // The tip's noise reaches the hand through the bends.
       const double gain =
           std::exp(setup.friction * passage.direction[k] * turned(passage.bends, passage.inserted_m[k]));
-      hand.sigma[k] = std::hypot(hand.sigma[k], gain * noise.not_negative("tip_force_N"));
+      hand.sigma[k] = std::hypot(hand.sigma[k], gain * *tip_N);
     }
   }
   run.along_label = "inserted", run.along_unit = "mm";

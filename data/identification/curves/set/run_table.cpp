@@ -24,10 +24,18 @@ class WrittenOut {
   }
 
  private:
+  /// Where "[1]" begins, if that is how it ends: "Time [s]" has no index.
+  static std::size_t index_in(const std::string& name) {
+    const std::size_t bracket = name.find('[');
+    if (bracket == std::string::npos || bracket == 0 || name.back() != ']') return std::string::npos;
+    const auto digits = name.find_first_not_of("0123456789", bracket + 1);
+    return digits == name.size() - 1 && digits > bracket + 1 ? bracket : std::string::npos;
+  }
+
   /// "density_mm[1]": key and index.
   void add(std::size_t column) {
     const std::string& name = table_.columns[column];
-    const std::size_t bracket = name.find('[');
+    const std::size_t bracket = index_in(name);
     const std::string key = name.substr(0, bracket);
     JsonValue& list = list_of(key, column);
     if (bracket == std::string::npos) {

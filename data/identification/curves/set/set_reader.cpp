@@ -103,6 +103,7 @@ std::vector<Switched> read_effects(const JsonObject& root, const Set& set) {
     Switched on{static_cast<std::size_t>(known - set.effects().begin()), {}};
     for (const EffectParameter& p : known->parameters) {
       const JsonValue* number = entry["parameters"].find(p.name);
+      if (number && number->type != JsonValue::Type::number) number->refuse("a number");
       on.values.push_back(number ? number->number : p.prior);
       if (on.values.back() < p.least || on.values.back() > p.most)
         number->refuse(fmt::format("{} from {:g} to {:g} {}", p.what, p.least, p.most, p.unit));
@@ -117,7 +118,6 @@ std::vector<Switched> read_effects(const JsonObject& root, const Set& set) {
 }
 
 void read_fitted(const JsonValue& fitted, std::vector<EffectParameter>& free) {
-  if (fitted.type != JsonValue::Type::object) fitted.refuse("an object");
   for (const auto& [name, number] : fitted.members) {
     const auto known =
         std::find_if(free.begin(), free.end(), [&, &key = name](const EffectParameter& p) { return p.name == key; });

@@ -207,7 +207,7 @@ const JsonObjectKeys set_keys = {
 
 const JsonObjectKeys rig_keys = {
     "bend_rig",
-    {{"friction", true, "the coefficient of friction at the rollers, >= 0", json_type::number(from_zero)},
+    {{"friction", true, "the coefficient of friction at the rollers, 0 to 2", json_type::number(from_to(0, 2))},
      {"machine_stiffness_N_per_mm", true, "how stiff the machine is in N/mm, > 0, or null: rigid",
       json_type::null_or(json_type::number(above_zero))},
      {"temperature_C", false, "the temperature in degrees Celsius", json_type::number()}}};
@@ -263,12 +263,11 @@ curves::Run read_run(const JsonValue& value, const JsonObject& noise,
   if (entry.has("start_s")) pass.time_s.array() += entry.not_negative("start_s");
   curves::Channel force{"force_N", "force", "N", {}, {}};
   force.measured = curves::read_samples_like(entry, "force_N", pass.displacement_m, "displacement_mm");
-  if (noise["force_N"].type == JsonValue::Type::number && noise["displacement_mm"].type == JsonValue::Type::number) {
+  const auto force_N = noise.number_or_null("force_N"), displacement_mm = noise.number_or_null("displacement_mm");
+  if (force_N && displacement_mm) {
     // Noise of the displacement is seen as one of the force, by the slope.
     const double slope = 48 * stiffness_of(setup, pass) / std::pow(pass.span_m, 3);
-    force.sigma =
-        VectorXd::Constant(force.measured.size(),
-                           std::hypot(noise.positive("force_N"), slope * noise.not_negative("displacement_mm") * mm));
+    force.sigma = VectorXd::Constant(force.measured.size(), std::hypot(*force_N, slope * *displacement_mm * mm));
   }
   run.along = pass.displacement_m / mm, run.along_label = "displacement", run.along_unit = "mm";
   run.channels = {force};
@@ -304,8 +303,8 @@ std::unique_ptr<curves::Set> read(const JsonValue& file) {
   setup.radius_m = instrument.radius_m;
   for (const curves::InstrumentSection& s : instrument.sections) setup.EI_N_m2.push_back(s.EI_N_m2);
   setup.friction = rig.not_negative("friction");
-  if (rig["machine_stiffness_N_per_mm"].type != JsonValue::Type::null)
-    setup.machine_m_per_N = mm / rig.positive("machine_stiffness_N_per_mm");
+  if (const auto stiffness_N_per_mm = rig.number_or_null("machine_stiffness_N_per_mm"))
+    setup.machine_m_per_N = mm / *stiffness_N_per_mm;
   std::vector<curves::Run> runs;
   for (const JsonValue& value : root.list("runs"))
     runs.push_back(read_run(value, noise, instrument.sections, setup, runs));

@@ -28,7 +28,7 @@ const JsonObjectKeys set_keys = {
 
 const JsonObjectKeys rig_keys = {
     "torque_rig",
-    {{"friction", true, "the coefficient of friction at the contacts, >= 0", json_type::number(from_zero)},
+    {{"friction", true, "the coefficient of friction at the contacts, 0 to 2", json_type::number(from_to(0, 2))},
      {"lumen_clearance_mm", false, "between wire and wall in mm, >= 0", json_type::number(from_zero)}}};
 
 const JsonObjectKeys noise_keys = {
@@ -96,8 +96,8 @@ void read_path(const JsonObject& entry, double length_mm, const Setup& setup, Tu
 }
 
 VectorXd sigma_of(const JsonObject& noise, const std::string& key, Eigen::Index samples) {
-  if (noise[key].type == JsonValue::Type::null) return {};
-  return VectorXd::Constant(samples, noise.positive(key));
+  const std::optional<double> sigma = noise.number_or_null(key);
+  return sigma ? VectorXd(VectorXd::Constant(samples, *sigma)) : VectorXd();
 }
 
 curves::Run read_run(const JsonValue& value, const JsonObject& noise, double length_mm, Setup& setup,
@@ -183,7 +183,6 @@ std::unique_ptr<curves::Set> read(const JsonValue& file) {
   Setup setup;
   const double length_mm = read_instrument(root, setup);
   setup.friction = rig.not_negative("friction");
-  if (rig.has("lumen_clearance_mm")) rig.not_negative("lumen_clearance_mm");
   std::vector<curves::Run> runs;
   for (const JsonValue& value : root.list("runs")) runs.push_back(read_run(value, noise, length_mm, setup, runs));
   if (runs.empty()) root.refuse("runs");
