@@ -126,17 +126,6 @@ std::map<std::string, std::string> names_of(const std::vector<std::string>& rena
   return names;
 }
 
-/// The tree has one.
-const vascular::TreeBranch& branch_nearest_to(const Eigen::Vector3d& p, const vascular::SphereTree& tree) {
-  const auto distance_m = [&](const vascular::TreeBranch& branch) {
-    double least = 1e300;
-    for (const vascular::TreeSphere& sphere : branch.spheres) least = std::min(least, (sphere.p - p).norm());
-    return least;
-  };
-  return *std::min_element(tree.branches.begin(), tree.branches.end(),
-                           [&](const auto& a, const auto& b) { return distance_m(a) < distance_m(b); });
-}
-
 class Import {
  public:
   explicit Import(const ImportArguments& options) : options_(options) {}
@@ -329,11 +318,12 @@ class Import {
     if (const vascular::Unreached rest = unreached(made_.found.lumen, made_.patient.tree);
         rest.share > vascular::unreached_matters) {
       const Eigen::Vector3d p = rest.p / mm;
-      const vascular::TreeBranch& branch = branch_nearest_to(rest.p, made_.patient.tree);
       made_.found.notes.push_back(fmt::format(
-          "{} is cut short after {:.1f} mm, near {:.1f} {:.1f} {:.1f} mm of the patient frame: {:.0f} % of the lumen's "
-          "wall has no centreline, so nothing gets there, as it hangs on by a narrowing finer than the grid; {}",
-          branch.name, branch.spheres.back().s_m / mm, p.x(), p.y(), p.z(), 100 * rest.share,
+          "{:.0f} % of the lumen's wall has no centreline, so nothing gets there, and the vessel that leads there is "
+          "cut "
+          "short: it hangs on by a narrowing finer than the grid, near {:.1f} {:.1f} {:.1f} mm of the patient frame; "
+          "{}",
+          100 * rest.share, p.x(), p.y(), p.z(),
           made_.frames.empty() ? "a finer --voxel may find the way"
                                : "imported alone, without --sequence, a frame is made anew on a finer grid"));
     }
