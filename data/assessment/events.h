@@ -37,6 +37,8 @@ inline constexpr double wall_force_over_s = 2;
 
 /// A tip must be in another branch of the tree for this long before it counts as having entered it, s.
 inline constexpr double tip_settles_s = 0.3;
+/// In the branch that it was in before, for longer than a beat: with the heart a tip sways across a border.
+inline constexpr double tip_returns_s = 1.5;
 
 /// Flow distal to the lesion below this share of what the muscle needs counts as no flow.
 inline constexpr double occluded_share = 0.05;

@@ -23,6 +23,11 @@ TEST(SettledBranch, CountsBranchesThatATipStaysIn) {
   EXPECT_EQ(came, (std::vector<int>{2})) << "29 looks after the first are 0.29 s";
   is_in(5, 1), is_in(5, 100), is_in(-1, 1), is_in(5, 31);
   EXPECT_EQ(came, (std::vector<int>{2, 5, 5})) << "out of the body it is at once";
+  came.clear();
+  for (int i = 0; i < 20; ++i) is_in(7, 45), is_in(5, 45);
+  EXPECT_EQ(came, (std::vector<int>{7})) << "twice a beat, with the heart";
+  is_in(5, 151), is_in(8, 31);
+  EXPECT_EQ(came, (std::vector<int>{7, 5, 8}));
 }
 
 /// A trunk from the access, with a branch whose origin is 5 mm from the trunk's axis.
