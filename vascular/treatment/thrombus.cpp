@@ -196,8 +196,7 @@ void form(const ThrombusModel& model, int cell, double volume, ThrombusState& s)
   }
 }
 
-bool step(const ThrombusModel& model, const ThrombusInputs& in, double dt, ThrombusState& s, FlowState& blood) {
-  const int before = s.formed;
+void step(const ThrombusModel& model, const ThrombusInputs& in, double dt, ThrombusState& s, FlowState& blood) {
   const double hazard = thrombus_hazard_1_s(in.act_s);
   double stands = 0;
   if (hazard > 0)
@@ -208,7 +207,6 @@ bool step(const ThrombusModel& model, const ThrombusInputs& in, double dt, Throm
     }
   for (Thrombus& one : s.thrombi)
     if (one.cell >= 0) shrink_or_grow(model, in, hazard / thrombus_hazard_1_s(0), dt, one, s, blood);
-  return s.formed > before;
 }
 
 void fill(const ThrombusModel& model, const FlowTree& tree, std::span<const double> radius_m, const ThrombusState& s,

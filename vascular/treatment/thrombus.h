@@ -81,8 +81,8 @@ double standing(double flow_m3_s, double free_m2);
 /// A thrombus of a volume at a cell, as a trainer asks for it.
 void form(const ThrombusModel& model, int cell, double volume_m3, ThrombusState& state);
 
-/// One step; dust goes into `blood.no_reflow`. Returns true if one formed.
-bool step(const ThrombusModel& model, const ThrombusInputs& inputs, double dt_s, ThrombusState& state,
+/// One step; dust goes into `blood.no_reflow`.
+void step(const ThrombusModel& model, const ThrombusInputs& inputs, double dt_s, ThrombusState& state,
           FlowState& blood);
 
 /// Adds what thrombus fills of each cell's lumen to `occupied_m` (#cells), the radius of all that lies in it.

@@ -274,13 +274,12 @@ void fill_lumen(const TreatmentModel& model, const TreatmentInputs& in, bool blo
 }
 
 /// Thrombus beside what lies in the lumen, which it then fills, too.
-bool clot(const TreatmentModel& model, const TreatmentInputs& in, double dt, TreatmentState& s,
+void clot(const TreatmentModel& model, const TreatmentInputs& in, double dt, TreatmentState& s,
           const TreatedVessels& vessels) {
   const ThrombusInputs around{act_s(model.drugs, s.drugs), vessels.flow, vessels.physiology.radius_m,
                               vessels.occupied_m,          in.tip,       in.drawn_m3_s};
-  const bool formed = step(model.thrombus, around, dt, s.thrombus, vessels.physiology.flow);
+  step(model.thrombus, around, dt, s.thrombus, vessels.physiology.flow);
   fill(model.thrombus, vessels.flow.tree, vessels.physiology.radius_m, s.thrombus, vessels.occupied_m);
-  return formed;
 }
 
 }  // namespace
@@ -319,7 +318,7 @@ TreatmentReport step(const TreatmentModel& model, const TreatmentInputs& in, dou
   if (s.injury.count > 0) narrow_by_flaps(model, vessels.flow.tree, vessels.occupied_m, s);
   set_radii(model, vessels.flow.tree, s, vessels.physiology);
   close_branches(model, vessels.flow.tree, s, vessels.physiology);
-  report.clotted = clot(model, in, dt, s, vessels);
+  clot(model, in, dt, s, vessels);
   if (s.injury.count > 0) cover_holes(model, vessels.occupied_m, vessels.physiology, s);
   run_injuries(model, vessels.flow.tree, dt, s, vessels.physiology);
   return report;

@@ -80,15 +80,13 @@ struct TreatmentReport {
   BalloonReport balloon;
   bool blocked = false;  ///< an unopened stent is in the balloon's way
   bool tore = false;     ///< an injury occurred in this step
-  bool clotted = false;  ///< a thrombus formed in this step
 };
 
 /// What leaks out of all holes, m3/s.
 double leak_m3_s(const TreatmentState& state);
 
-/// What a treatment changes: `physiology`'s radii, contrast that leaves through injuries, rhythm, lost muscle; sets
-/// `occupied_m`
-/// (#cells) to the radius of everything in the lumen besides blood.
+/// What a treatment changes: `physiology`'s radii, contrast that leaves through injuries, rhythm, lost muscle, air in
+/// the line; sets `occupied_m` (#cells) to the radius of everything in the lumen besides blood.
 struct TreatedVessels {
   const FlowModel& flow;
   PhysiologyState& physiology;

@@ -135,7 +135,7 @@ void forget_what_is_given_once(DeliveryInputs& inputs) {
 }
 
 double drawn_m3_s(const CouplingModel& model, const DeliveryInputs& inputs, const CouplingState& s) {
-  if (s.guide < 0 || inputs.injection_m3_s > 0) return 0;
+  if (s.guide < 0 || inputs.injection_m3_s > 0 || inputs.aspiration_m3_s <= 0) return 0;
   const data::Instrument& guide = model.tools[static_cast<std::size_t>(s.guide)].instrument;
   return vascular::drawn_m3_s(inputs.aspiration_m3_s, line_of(guide), s.filled_m);
 }

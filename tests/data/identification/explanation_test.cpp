@@ -131,11 +131,16 @@ TEST(Explanation, WithoutANoiseItCannotBeJudgedAndSaysWhatWouldLetIt) {
   EXPECT_EQ(explain(set, {}).verdict, Verdict::explained);
 }
 
-TEST(Explanation, EndedEarlyItTellsWhatItHas) {
+MeasurementSet bent_but_declared_straight() {
   MeasurementSet set = synthetic::free_wire(12), world = set;
   world.instruments[0].sections[1].rest_curvature_per_m = {0, 0.2, 0};
   synthetic::measure(world, stiffness(1, 1, 3));
   set.experiments = world.experiments;
+  return set;
+}
+
+TEST(Explanation, EndedEarlyItTellsWhatItHas) {
+  const MeasurementSet set = bent_but_declared_straight();
   ExplainOptions options;
   options.library = true;
   options.stop = [] { return true; };
@@ -149,10 +154,7 @@ TEST(Explanation, EndedEarlyItTellsWhatItHas) {
 
 /// A fold, or the fit of a law, takes minutes in large sets.
 TEST(Explanation, ItEndsWithinAFit) {
-  MeasurementSet set = synthetic::free_wire(12), world = set;
-  world.instruments[0].sections[1].rest_curvature_per_m = {0, 0.2, 0};
-  synthetic::measure(world, stiffness(1, 1, 3));
-  set.experiments = world.experiments;
+  const MeasurementSet set = bent_but_declared_straight();
   ExplainOptions options;
   options.library = true, options.threads = 1;
   std::vector<std::string> after;
