@@ -68,13 +68,13 @@ fluoro::Body body_of(const std::string& name, const std::vector<Eigen::Vector3d>
 }  // namespace
 
 void add_balloon(const vascular::BalloonModel& model, const vascular::BalloonState& state,
-                 const vascular::VesselPath& path, double middle_m, const vascular::LumenMap& map, double phase,
-                 double breath, bool markers, fluoro::Scene& scene) {
+                 const vascular::VesselPath& path, double middle_m, const vascular::LumenMap& map,
+                 const vascular::LumenMoment& moment, bool markers, fluoro::Scene& scene) {
   std::vector<Eigen::Vector3d> axis;
   std::vector<vascular::PathFrame> frames;
   std::vector<double> radius;
   for (int i = 0; i < vascular::balloon_spheres; i += 3) {
-    frames.push_back(frame_at(map, path, sphere_position(model, state, middle_m, i), phase, breath));
+    frames.push_back(frame_at(map, path, sphere_position(model, state, middle_m, i), moment));
     axis.push_back(frames.back().centre);
     radius.push_back(state.radius_m[i]);
   }
@@ -85,28 +85,28 @@ void add_balloon(const vascular::BalloonModel& model, const vascular::BalloonSta
   for (double end : {-0.5, 0.5}) {
     const double at = middle_m + state.slip_m + end * model.length_m;
     std::vector<Eigen::Vector3d> band;
-    for (double x : {-0.5e-3, 0.5e-3}) band.push_back(frame_at(map, path, at + x, phase, breath).centre);
+    for (double x : {-0.5e-3, 0.5e-3}) band.push_back(frame_at(map, path, at + x, moment).centre);
     scene.shafts.push_back(line("marker", band, fluoro::Material::platinum, 0.31e-3, 0.26e-3));
   }
 }
 
 void add_stent(const vascular::StentModel& model, const vascular::StentState& state, const vascular::VesselPath& path,
                const vascular::Patient& patient, const vascular::LumenMap& map, const vascular::WallShape& shape,
-               std::span<const double> radius_m, double phase, double breath, fluoro::Scene& scene) {
-  const std::vector<Eigen::Vector3d> points =
-      is_tied(state) ? points_on_wall(model, state, patient, shape, radius_m, phase, breath)
-                     : points_on_path(model, state, map, path, phase, breath);
+               std::span<const double> radius_m, const vascular::LumenMoment& moment, fluoro::Scene& scene) {
+  const std::vector<Eigen::Vector3d> points = is_tied(state)
+                                                  ? points_on_wall(model, state, patient, shape, radius_m, moment)
+                                                  : points_on_path(model, state, map, path, moment);
   for (const auto& [a, b] : struts_of(model))
     scene.shafts.push_back(line("strut", {points[a], points[b]}, fluoro::Material::cobalt_chromium, model.strut_m / 2));
 }
 
 void add_pools(const vascular::InjuryState& injuries, const vascular::LumenMap& map, std::span<const double> radius_m,
-               double phase, double breath, fluoro::Scene& scene) {
+               const vascular::LumenMoment& moment, fluoro::Scene& scene) {
   for (const vascular::Injury& injury : injuries.injuries) {
     if (injury.cell < 0 || injury.outside_kg <= 0) continue;
     // A cloud beside the lumen with the volume that has leaked.
     const auto cell = static_cast<std::size_t>(injury.cell);
-    const Eigen::Vector3d p = map.centre(cell, phase, breath);
+    const Eigen::Vector3d p = map.centre(cell, moment);
     const double r = std::cbrt(injury.outside_m3 * 3 / (4 * pi)), out = radius_m[cell] + 0.6 * r;
     vascular::PathFrame frame{p, Eigen::Vector3d::UnitZ(), Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY()};
     std::vector<Eigen::Vector3d> axis;
@@ -138,12 +138,12 @@ void add_devices(const Bedside& bed, const Plan& plan, const vascular::Patient& 
     const bool mine = bed.device.balloon >= 0 && bed.treatment.stent_on[bed.device.balloon] == static_cast<int>(i);
     if (stent.where == vascular::StentState::deployed || (stent.where == vascular::StentState::on_balloon && mine))
       add_stent(bed.treatment.stents[i], stent, plan.path, patient, scene.map(), scene.shape(), bed.blood.radius_m,
-                phase, 0, scene.scene());
+                {.phase = phase}, scene.scene());
   }
   if (bed.device.balloon >= 0)
     add_balloon(bed.treatment.balloons[bed.device.balloon], bed.state.balloon, plan.path, bed.device.middle_m,
-                scene.map(), phase, 0, true, scene.scene());
-  add_pools(bed.state.injury, scene.map(), bed.blood.radius_m, phase, 0, scene.scene());
+                scene.map(), {.phase = phase}, true, scene.scene());
+  add_pools(bed.state.injury, scene.map(), bed.blood.radius_m, {.phase = phase}, scene.scene());
 }
 
 }  // namespace ostium::app

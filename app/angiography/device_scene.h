@@ -1,21 +1,20 @@
 #pragma once
-/// Balloons, stents and contrast outside the vessel as an X-ray sees them: on a path of the arteries, at a phase and a
-/// depth of breath.
+/// Balloons, stents and contrast outside the vessel as an X-ray sees them: on a path of the arteries, at a moment.
 #include "app/angiography/textbook_treatment.h"
 
 namespace ostium::app {
 
 /// The balloon's contents, if any; `markers`: also its marker bands, if no shaft draws them.
 void add_balloon(const vascular::BalloonModel& model, const vascular::BalloonState& state,
-                 const vascular::VesselPath& path, double middle_m, const vascular::LumenMap& map, double phase,
-                 double breath, bool markers, fluoro::Scene& scene);
+                 const vascular::VesselPath& path, double middle_m, const vascular::LumenMap& map,
+                 const vascular::LumenMoment& moment, bool markers, fluoro::Scene& scene);
 /// The stent's struts: in the wall, or crimped on the path.
 void add_stent(const vascular::StentModel& model, const vascular::StentState& state, const vascular::VesselPath& path,
                const vascular::Patient& patient, const vascular::LumenMap& map, const vascular::WallShape& shape,
-               std::span<const double> radius_m, double phase, double breath, fluoro::Scene& scene);
+               std::span<const double> radius_m, const vascular::LumenMoment& moment, fluoro::Scene& scene);
 /// Contrast and blood outside the lumen.
 void add_pools(const vascular::InjuryState& injury, const vascular::LumenMap& map, std::span<const double> radius_m,
-               double phase, double breath, fluoro::Scene& scene);
+               const vascular::LumenMoment& moment, fluoro::Scene& scene);
 
 /// Adds to `scene.scene()` the devices now in the vessel; call after scene.at().
 void add_devices(const Bedside& bed, const Plan& plan, const vascular::Patient& patient, PatientScene& scene,

@@ -70,21 +70,21 @@ void PatientScene::set_still_lumen() {
 }
 
 const fluoro::Scene& PatientScene::at(const vascular::PhysiologyState& state, std::span<const double> occupied_m,
-                                      double breath_depth) {
+                                      double breath_depth, std::span<const Eigen::Vector3d> aside_P) {
   const double phase = state.heart.phase, breath = breathes_ ? breath_depth : 0;
+  const vascular::LumenMoment moment{phase, breath, aside_P};
   scene_.moving.resize(own_);
   scene_.shafts.clear();
   for (std::size_t b = 0; b < thorax_->size(); ++b)
     move((*thorax_)[b], vascular::contraction(phase), breath, scene_.moving[b]);
   fluoro::Body& body = lumen();
   const vascular::FlowInputs in{{}, state.radius_m, occupied_m, 0};
-  opacify(map_,
-          {physiology_.flow, physiology_.contrast, state.contrast, in, phase, breath, fluoro::faintest_iodine_kg_m3},
+  opacify(map_, {physiology_.flow, physiology_.contrast, state.contrast, in, moment, fluoro::faintest_iodine_kg_m3},
           {{body.contrast.iodine_kg_m3.data(), static_cast<std::size_t>(body.contrast.iodine_kg_m3.size())},
            body.contrast.p_PC,
            body.contrast.along_kg_m2},
           scratch_);
-  if (fluoro::is_seen(body.contrast)) shape_.at(*body.corners, state.radius_m, phase, breath, body.p_P);
+  if (fluoro::is_seen(body.contrast)) shape_.at(*body.corners, state.radius_m, moment, body.p_P);
   add_twigs(phase, breath);
   return scene_;
 }

@@ -21,9 +21,9 @@ class PatientScene {
 
   bool breathes() const { return breathes_; }
   /// The patient at this moment; removes whatever the caller has added to `scene()` since the last call. `breath_depth`
-  /// counts if the patient breathes.
+  /// counts if the patient breathes; `aside_P`: of LumenMoment.
   const fluoro::Scene& at(const vascular::PhysiologyState& state, std::span<const double> occupied_m,
-                          double breath_depth = 0);
+                          double breath_depth = 0, std::span<const Eigen::Vector3d> aside_P = {});
   fluoro::Scene& scene() { return scene_; }
   fluoro::Body& lumen() { return scene_.moving[thorax_->size()]; }
   const vascular::LumenMap& map() const { return map_; }

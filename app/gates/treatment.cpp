@@ -52,7 +52,7 @@ data::GateResult rides(const vascular::Patient& patient, const vascular::Physiol
                        const std::vector<double>& radius_m) {
   const vascular::LumenMap map = make_lumen_map(patient, physiology.flow);
   const vascular::WallShape shape(patient, map, physiology.flow.tree);
-  tie_to_wall({patient, shape, map, physiology.flow.tree}, model, plan.path, wall, 0.7, stent);
+  tie_to_wall({patient, shape, map, physiology.flow.tree}, model, plan.path, wall, {.phase = 0.7}, stent);
   const std::vector<double> gap = gaps(model, stent, plan.path, wall);
   std::vector<double> first(stent.ties.size(), -1);
   double worst = 0;
@@ -67,9 +67,9 @@ data::GateResult rides(const vascular::Patient& patient, const vascular::Physiol
       step(beating, {}, 1e-3, heart);
       beat += heart.phase < before;
     }
-    shape.at(radius_m, heart.phase, 0, mesh.vertices);
+    shape.at(radius_m, {.phase = heart.phase}, mesh.vertices);
     const vascular::BoundingVolumeHierarchy surface(mesh);
-    const auto points = points_on_wall(model, stent, patient, shape, radius_m, heart.phase, 0);
+    const auto points = points_on_wall(model, stent, patient, shape, radius_m, {.phase = heart.phase});
     for (std::size_t i = 0; i < points.size(); ++i) {
       if (gap[i] > vascular::apposed_m) continue;
       const double d = surface.nearest(points[i], 5e-3).distance_m;

@@ -26,10 +26,10 @@ CellLocator::CellLocator(const LumenMap& map, const FlowTree& tree)
     if (tree.cells[c].upstream >= 0) children_[next[tree.cells[c].upstream]++] = static_cast<int>(c);
 }
 
-void CellLocator::set_moment(double phase, double depth) {
+void CellLocator::set_moment(const LumenMoment& moment) {
   for (Eigen::AlignedBox3d& box : boxes_) box.setEmpty();
   for (std::size_t c = 0; c < centres_.size(); ++c) {
-    centres_[c] = map_.centre(c, phase, depth);
+    centres_[c] = map_.centre(c, moment);
     boxes_[c / boxed].extend(centres_[c]);
   }
 }
@@ -136,8 +136,8 @@ void occupy(const CellLocator& locator, const FlowTree& tree, std::span<const Ei
 }
 
 TipPlace tip_place(const CellLocator& locator, const FlowTree& tree, const ContrastModel& contrast,
-                   const Patient& patient, const LumenMap& map, double phase, double breath,
-                   const Eigen::Vector3d& p_tip, const Eigen::Vector3d& direction) {
+                   const Patient& patient, const LumenMap& map, const LumenMoment& moment, const Eigen::Vector3d& p_tip,
+                   const Eigen::Vector3d& direction) {
   const CellLocator::Found f = locator.nearest(p_tip, 6e-3);
   if (f.cell >= 0 && f.distance_m <= in_vessel * tree.cells[f.cell].healthy_m) {
     // Upstream of the first cell it is still in the sinus.
@@ -160,7 +160,7 @@ TipPlace tip_place(const CellLocator& locator, const FlowTree& tree, const Contr
   if (place.where != TipPlace::outside) return place;
   double least = in_aorta_m;
   for (std::size_t i = 0; i < map.aorta.size(); ++i)
-    if (const double d = (map.aorta_centre(i, phase, breath) - p_tip).norm(); d < least)
+    if (const double d = (map.aorta_centre(i, moment) - p_tip).norm(); d < least)
       least = d, place = {TipPlace::aorta, static_cast<int>(i), 0};
   return beyond_valve_m(patient.anatomy.landmarks, p_tip) > 0 ? TipPlace{} : place;
 }

@@ -14,7 +14,7 @@ class CellLocator {
   CellLocator(const LumenMap& map, const FlowTree& tree);
 
   /// Moves the cells to that moment; does not allocate after the first call.
-  void set_moment(double phase, double breath_depth);
+  void set_moment(const LumenMoment& moment);
 
   struct Found {
     int cell = -1;          ///< -1: farther than the limit from every cell
@@ -62,8 +62,8 @@ void occupy(const CellLocator& locator, const FlowTree& tree, std::span<const Ei
 /// Location of an end hole for contrast and pressure: in a coronary, at an ostium (the closer and better aligned, the
 /// more of a jet enters it), in the aorta, or elsewhere. `direction`: out of the hole, unit.
 TipPlace tip_place(const CellLocator& locator, const FlowTree& tree, const ContrastModel& contrast,
-                   const Patient& patient, const LumenMap& map, double phase, double breath,
-                   const Eigen::Vector3d& p_tip, const Eigen::Vector3d& direction);
+                   const Patient& patient, const LumenMap& map, const LumenMoment& moment, const Eigen::Vector3d& p_tip,
+                   const Eigen::Vector3d& direction);
 
 /// Distance of a point beyond the aortic valve's plane, towards the ventricle, m; negative: in the aorta. Beyond it the
 /// ventricle's wall is touched (HeartInputs::irritation). Points beside the ventricle are not beyond.

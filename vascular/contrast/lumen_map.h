@@ -8,6 +8,16 @@
 
 namespace ostium::vascular {
 
+/// How the heart's vessels lie: by heartbeat and breath, and pushed aside by instruments (motion/artery_bed.h).
+struct LumenMoment {
+  double phase = 0, breath = 0;                   ///< cardiac phase; depth of breath
+  std::span<const Eigen::Vector3d> aside_P = {};  ///< (#cells) of the coronary arteries, m; empty: nothing is
+
+  Eigen::Vector3d aside(std::size_t cell) const {
+    return aside_P.empty() ? Eigen::Vector3d(Eigen::Vector3d::Zero()) : aside_P[cell];
+  }
+};
+
 /// A position between two neighbouring cells of the coronaries or the aorta, or a sinus. `none`: a vessel without
 /// contrast that leaves the aorta at `below`.
 struct VertexSource {
@@ -29,12 +39,12 @@ struct LumenMap {
   /// weight.
   std::vector<std::pair<int, float>> parent_centre;
 
-  /// Centre of a coronary or aortic cell at a cardiac phase and depth of breath.
-  Eigen::Vector3d centre(std::size_t cell, double phase, double breath) const {
-    return coronary.position(cell, phase) + breath * coronary_breath[cell];
+  /// Centre of a coronary or aortic cell.
+  Eigen::Vector3d centre(std::size_t cell, const LumenMoment& at) const {
+    return coronary.position(cell, at.phase) + at.breath * coronary_breath[cell] + at.aside(cell);
   }
-  Eigen::Vector3d aorta_centre(std::size_t cell, double phase, double breath) const {
-    return aorta.position(cell, phase) + breath * aorta_breath[cell];
+  Eigen::Vector3d aorta_centre(std::size_t cell, const LumenMoment& at) const {
+    return aorta.position(cell, at.phase) + at.breath * aorta_breath[cell];
   }
 };
 LumenMap make_lumen_map(const Patient& patient, const FlowModel& flow);

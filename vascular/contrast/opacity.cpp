@@ -16,11 +16,11 @@ void measure_cells(const LumenMap& map, const OpacityInputs& in, OpacityScratch&
   for (std::size_t c = 0; c < n; ++c) {
     const double area = free_area_m2(in.lumen.radius_m[c], in.lumen.occupied_m.empty() ? 0 : in.lumen.occupied_m[c]);
     coronary[c] = static_cast<float>(concentration(in.state, in.flow, static_cast<int>(c), area));
-    coronary_p.col(static_cast<int>(c)) = map.centre(c, in.phase, in.breath).cast<float>();
+    coronary_p.col(static_cast<int>(c)) = map.centre(c, in.moment).cast<float>();
   }
   for (std::size_t c = 0; c < m; ++c) {
     aorta[c] = static_cast<float>(aorta_concentration(in.model, in.state, static_cast<int>(c)));
-    aorta_p.col(static_cast<int>(c)) = map.aorta_centre(c, in.phase, in.breath).cast<float>();
+    aorta_p.col(static_cast<int>(c)) = map.aorta_centre(c, in.moment).cast<float>();
   }
   for (std::size_t c = 0; c < n; ++c) {
     const auto [parent, share] = map.parent_centre[c];

@@ -11,7 +11,7 @@ struct OpacityInputs {
   const ContrastModel& model;
   const ContrastState& state;
   const FlowInputs& lumen;  ///< uses its radius_m and occupied_m
-  double phase = 0, breath = 0;
+  LumenMoment moment;
   float faintest_kg_m3 = 0;  ///< where blood is nowhere denser, there is none; >= 0
 };
 

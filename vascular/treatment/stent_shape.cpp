@@ -32,8 +32,8 @@ std::vector<std::pair<int, int>> struts_of(const StentModel& m) {
   return out;
 }
 
-PathFrames::PathFrames(const LumenMap& map, const VesselPath& path, double least_m, double phase, double breath)
-    : map_(map), path_(path), phase_(phase), breath_(breath), side_(Eigen::Vector3d::UnitX()) {
+PathFrames::PathFrames(const LumenMap& map, const VesselPath& path, double least_m, const LumenMoment& moment)
+    : map_(map), path_(path), moment_(moment), side_(Eigen::Vector3d::UnitX()) {
   along_ = (centre(2) - centre(0)).normalized();
   if (std::fabs(along_.x()) > 0.9) side_ = Eigen::Vector3d::UnitY();
   side_ = (side_ - side_.dot(along_) * along_).normalized();
@@ -42,7 +42,7 @@ PathFrames::PathFrames(const LumenMap& map, const VesselPath& path, double least
 
 Eigen::Vector3d PathFrames::centre(int i) const {
   const int last = static_cast<int>(path_.cells.size()) - 1;
-  return map_.centre(static_cast<std::size_t>(path_.cells[std::clamp(i, 0, last)]), phase_, breath_);
+  return map_.centre(static_cast<std::size_t>(path_.cells[std::clamp(i, 0, last)]), moment_);
 }
 
 void PathFrames::carry(int& index, int to, Eigen::Vector3d& along, Eigen::Vector3d& side) const {
@@ -65,14 +65,14 @@ PathFrame PathFrames::at(double s_m) const {
   return f;
 }
 
-PathFrame frame_at(const LumenMap& map, const VesselPath& path, double s_m, double phase, double breath) {
-  return PathFrames(map, path, s_m, phase, breath).at(s_m);
+PathFrame frame_at(const LumenMap& map, const VesselPath& path, double s_m, const LumenMoment& moment) {
+  return PathFrames(map, path, s_m, moment).at(s_m);
 }
 
 std::vector<Eigen::Vector3d> points_on_path(const StentModel& m, const StentState& s, const LumenMap& map,
-                                            const VesselPath& path, double phase, double breath) {
+                                            const VesselPath& path, const LumenMoment& moment) {
   std::vector<Eigen::Vector3d> out;
-  const PathFrames frames(map, path, span_of(s).first, phase, breath);
+  const PathFrames frames(map, path, span_of(s).first, moment);
   for (int i = 0; i < m.points(); ++i) out.push_back(point_on_path(m, s, frames, i));
   return out;
 }
@@ -89,15 +89,13 @@ bool is_tied(const StentState& s) {
 }
 
 std::vector<Eigen::Vector3d> points_on_wall(const StentModel& m, const StentState& s, const Patient& patient,
-                                            const WallShape& shape, std::span<const double> radius_m, double phase,
-                                            double breath) {
+                                            const WallShape& shape, std::span<const double> radius_m,
+                                            const LumenMoment& moment) {
   std::vector<Eigen::Vector3d> out;
   for (int i = 0; i < m.points(); ++i) {
     const StentTie& tie = s.ties[i];
     const auto& triangle = patient.lumen.triangles[static_cast<std::size_t>(tie.triangle)];
-    const auto corner = [&](int k) {
-      return shape.vertex(static_cast<std::size_t>(triangle[k]), radius_m, phase, breath);
-    };
+    const auto corner = [&](int k) { return shape.vertex(static_cast<std::size_t>(triangle[k]), radius_m, moment); };
     const Eigen::Vector3d a = corner(0), u = corner(1) - a, v = corner(2) - a;
     out.push_back(a + tie.u * u + tie.v * v - tie.depth_m * u.cross(v).normalized());
   }

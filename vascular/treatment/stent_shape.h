@@ -12,13 +12,13 @@ std::vector<std::pair<int, int>> struts_of(const StentModel& model);
 struct PathFrame {
   Eigen::Vector3d centre, along, side, up;
 };
-PathFrame frame_at(const LumenMap& map, const VesselPath& path, double s_m, double phase, double breath = 0);
+PathFrame frame_at(const LumenMap& map, const VesselPath& path, double s_m, const LumenMoment& moment);
 
 /// The same for many places: goes on from the first of them instead of from the path's beginning. Keeps references.
 class PathFrames {
  public:
   /// `least_m`: no place lies before it.
-  PathFrames(const LumenMap& map, const VesselPath& path, double least_m, double phase, double breath);
+  PathFrames(const LumenMap& map, const VesselPath& path, double least_m, const LumenMoment& moment);
   PathFrame at(double s_m) const;
 
  private:
@@ -28,7 +28,7 @@ class PathFrames {
 
   const LumenMap& map_;
   const VesselPath& path_;
-  double phase_, breath_;
+  LumenMoment moment_;
   int first_ = -1;
   Eigen::Vector3d along_, side_;  ///< at cell `first_`
 };
@@ -37,15 +37,15 @@ class PathFrames {
 Eigen::Vector3d point_on_path(const StentModel& model, const StentState& state, const PathFrames& frames, int point);
 /// That of all of them.
 std::vector<Eigen::Vector3d> points_on_path(const StentModel& model, const StentState& state, const LumenMap& map,
-                                            const VesselPath& path, double phase, double breath = 0);
+                                            const VesselPath& path, const LumenMoment& moment);
 
 /// Whether every point is attached to the wall (stent_ties.h).
 bool is_tied(const StentState& state);
 
-/// Positions of the attached points at a phase.
+/// Positions of the attached points at a moment.
 std::vector<Eigen::Vector3d> points_on_wall(const StentModel& model, const StentState& state, const Patient& patient,
-                                            const WallShape& shape, std::span<const double> radius_m, double phase,
-                                            double breath);
+                                            const WallShape& shape, std::span<const double> radius_m,
+                                            const LumenMoment& moment);
 
 /// Angle of point j of a ring; the first crown is at the side direction of the path's frame.
 double angle_of(const StentModel& model, int j);

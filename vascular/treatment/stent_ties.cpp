@@ -51,14 +51,14 @@ StentTies::StentTies(const Patient& patient, const WallShape& shape, const Lumen
       triangles_[static_cast<std::size_t>(next[static_cast<std::size_t>(cell)]++)] = static_cast<int>(t);
 }
 
-bool StentTies::tie_next(const StentModel& m, const VesselPath& path, const PlaqueState& wall, double phase,
-                         StentState& s) const {
+bool StentTies::tie_next(const StentModel& m, const VesselPath& path, const PlaqueState& wall,
+                         const LumenMoment& moment, StentState& s) const {
   const int around = 2 * m.crowns;
   int begin = 0;
   while (begin < m.points() && s.ties[static_cast<std::size_t>(begin)].triangle != StentTie::untied) begin += around;
   if (begin == m.points()) return false;
   const double least_m = *std::min_element(s.along_m.begin() + begin, s.along_m.begin() + begin + around);
-  const PathFrames frames(map_, path, s.middle_m + s.shift_m + least_m, phase, 0);
+  const PathFrames frames(map_, path, s.middle_m + s.shift_m + least_m, moment);
   std::array<RingPoint, 2 * most_crowns> ring;
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
   for (int j = 0; j < around; ++j) {
@@ -67,11 +67,11 @@ bool StentTies::tie_next(const StentModel& m, const VesselPath& path, const Plaq
   }
   const double near_m = s.radius_m[begin / around] + searched_m;
   for (std::size_t cell = 0; cell + 1 < first_.size(); ++cell) {
-    if ((map_.centre(cell, phase, 0) - middle).norm() > near_m + wall.radius_m[cell]) continue;
+    if ((map_.centre(cell, moment) - middle).norm() > near_m + wall.radius_m[cell]) continue;
     for (int k = first_[cell]; k < first_[cell + 1]; ++k) {
       const auto& triangle = patient_.lumen.triangles[static_cast<std::size_t>(triangles_[k])];
       const auto corner = [&](int n) {
-        return shape_.vertex(static_cast<std::size_t>(triangle[n]), wall.radius_m, phase, 0);
+        return shape_.vertex(static_cast<std::size_t>(triangle[n]), wall.radius_m, moment);
       };
       const Eigen::Vector3d a = corner(0);
       if ((a - middle).norm() > near_m) continue;
@@ -98,9 +98,9 @@ bool StentTies::tie_next(const StentModel& m, const VesselPath& path, const Plaq
 }
 
 void tie_to_wall(const StentTies& ties, const StentModel& model, const VesselPath& path, const PlaqueState& wall,
-                 double phase, StentState& state) {
+                 const LumenMoment& moment, StentState& state) {
   std::fill(state.ties.begin(), state.ties.end(), StentTie{});
-  while (ties.tie_next(model, path, wall, phase, state)) {
+  while (ties.tie_next(model, path, wall, moment, state)) {
   }
 }
 

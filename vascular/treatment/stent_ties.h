@@ -15,7 +15,7 @@ class StentTies {
 
   /// Ties the next ring of a deployed stent to the wall, both in their present shape. False if every ring has been
   /// tied. Does not allocate.
-  bool tie_next(const StentModel& model, const VesselPath& path, const PlaqueState& wall, double phase,
+  bool tie_next(const StentModel& model, const VesselPath& path, const PlaqueState& wall, const LumenMoment& moment,
                 StentState& state) const;
 
  private:
@@ -27,6 +27,6 @@ class StentTies {
 
 /// Ties all rings at once; those tied before, too.
 void tie_to_wall(const StentTies& ties, const StentModel& model, const VesselPath& path, const PlaqueState& wall,
-                 double phase, StentState& state);
+                 const LumenMoment& moment, StentState& state);
 
 }  // namespace ostium::vascular

@@ -17,8 +17,9 @@ void add_session_options(Options& options, SessionArguments& a) {
   options.add("--script", a.script, "One of `ostium scripts`, or a file").type("NAME|FILE").show_default();
   options
       .add("--set", a.set,
-           "A tool's instrument (NAME or FILE.json), or person, heart_rate, breathing (breaths a minute), hand_speed, "
-           "friction, begin (an artery), stuck (a tool whose drive is out)")
+           "A tool's instrument (NAME or FILE.json), or person, heart_rate, breathing (breaths a minute), arteries "
+           "(rigid, "
+           "yield), hand_speed, friction, begin (an artery), stuck (a tool whose drive is out)")
       .type("KEY=VALUE");
   options.add("--seconds", a.seconds, "Most that are simulated").range(0.001, 36000.0);
   add_unit_option(options, a.unit, "What a number in a mesh means");

@@ -60,8 +60,8 @@ void prepare(TreatmentRoom& room) {
 
 void tie(TreatmentRoom& room, const Plan& plan, int stent) {
   const vascular::StentTies ties(room.patient, room.scene.shape(), room.scene.map(), room.physiology.flow.tree);
-  tie_to_wall(ties, room.plan.model.stents[stent], plan.path, room.bed.state.wall, room.bed.blood.heart.phase,
-              room.bed.state.stents[stent]);
+  tie_to_wall(ties, room.plan.model.stents[stent], plan.path, room.bed.state.wall,
+              {.phase = room.bed.blood.heart.phase}, room.bed.state.stents[stent]);
 }
 
 bool is_deployed(const TreatmentRoom& room, int stent) {

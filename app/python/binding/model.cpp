@@ -41,13 +41,14 @@ double fingerprint_of(const ModelRecipe& recipe) {
   std::string all = recipe.vessel->key;
   for (const ModelRecipe::Tool& tool : recipe.tools) all += '\0' + tool.name + '\0' + tool.text;
   for (const ModelRecipe::DrugFile& drug : recipe.drugs) all += '\0' + drug.text;
-  all += fmt::format("{} {} {} {}", recipe.options.seed, recipe.options.breaths_1_min,
+  all += fmt::format("{} {} {} {} {}", recipe.options.seed, recipe.options.breaths_1_min, recipe.options.arteries_yield,
                      recipe.options.friction.value_or(-1), recipe.options.begin);
   return static_cast<double>(core::hash_bytes(all.data(), all.size(), 0) >> 11);
 }
 
 ModelRecipe recipe_of(std::shared_ptr<VesselHandle> vessel, const NamedTools& tools, std::uint64_t seed,
-                      const std::optional<std::string>& begin, std::optional<double> friction, double breathing) {
+                      const std::optional<std::string>& begin, std::optional<double> friction, double breathing,
+                      const std::string& arteries) {
   ModelRecipe recipe{.vessel = std::move(vessel), .tools = {}, .drugs = {}, .options = {}};
   if (tools.empty()) throw py::value_error("tools is empty; expected (name, instrument) for one tool at least");
   for (const auto& [name, instrument] : tools) {
@@ -62,10 +63,16 @@ ModelRecipe recipe_of(std::shared_ptr<VesselHandle> vessel, const NamedTools& to
   for (const std::string& file : data::drug_files()) recipe.drugs.push_back({file, data::read_file(file)});
   if (!(breathing == 0 || (breathing >= 4 && breathing <= 60)))
     throw py::value_error(fmt::format("breathing is {}; expected breaths a minute, 4 to 60, or 0", breathing));
+  if (arteries != "rigid" && arteries != "yield")
+    throw py::value_error(fmt::format("arteries is \"{}\"; expected rigid or yield", arteries));
   if (friction && !(*friction >= 0 && *friction <= 1))
     throw py::value_error(fmt::format("friction is {}; expected a number from 0 to 1", *friction));
-  recipe.options = {
-      .seed = seed, .breaths_1_min = breathing, .friction = friction, .begin = begin.value_or(""), .drugs = {}};
+  recipe.options = {.seed = seed,
+                    .breaths_1_min = breathing,
+                    .arteries_yield = arteries == "yield",
+                    .friction = friction,
+                    .begin = begin.value_or(""),
+                    .drugs = {}};
   return recipe;
 }
 
@@ -76,11 +83,11 @@ py::tuple recipe_to_python(const ModelHandle& self) {
   for (const ModelRecipe::DrugFile& drug : self.recipe.drugs) drugs.append(py::make_tuple(drug.file, drug.text));
   const app::SessionOptions& o = self.recipe.options;
   return py::make_tuple(std::const_pointer_cast<VesselHandle>(self.recipe.vessel), tools, o.seed, o.breaths_1_min,
-                        o.friction, o.begin, drugs);
+                        o.friction, o.begin, drugs, o.arteries_yield);
 }
 
 std::shared_ptr<ModelHandle> from_python(const py::tuple& r) {
-  if (r.size() != 7) throw py::value_error("this is no model of this version");
+  if (r.size() != 8) throw py::value_error("this is no model of this version");
   ModelRecipe recipe{.vessel = r[0].cast<std::shared_ptr<VesselHandle>>(), .tools = {}, .drugs = {}, .options = {}};
   for (const py::handle tool : r[1]) {
     const auto parts = tool.cast<py::tuple>();
@@ -92,6 +99,7 @@ std::shared_ptr<ModelHandle> from_python(const py::tuple& r) {
   }
   recipe.options = {.seed = r[2].cast<std::uint64_t>(),
                     .breaths_1_min = r[3].cast<double>(),
+                    .arteries_yield = r[7].cast<bool>(),
                     .friction = r[4].cast<std::optional<double>>(),
                     .begin = r[5].cast<std::string>(),
                     .drugs = {}};
@@ -132,20 +140,22 @@ void bind_model(py::module_& module) {
       py::class_<ModelHandle, std::shared_ptr<ModelHandle>>(module, "Model",
                                                             R"(Instruments in a vessel; does not change.
 
-Model(vessel, tools, seed=0, begin=None, friction=None, breathing=0)
+Model(vessel, tools, seed=0, begin=None, friction=None, breathing=0, arteries="rigid")
   tools      [(name, instrument), ...], outermost first; an instrument is a name of `ostium instruments` or a file
   seed       of the person's physiology and of chance; 0: the mean. Also what Data begins with
   begin      an artery ("RCA"): instruments come in before its ostium, not at the access
-  friction   of the wall, [0, 1]; breathing: breaths a minute, 4 to 60, or 0
+  friction   of the wall, [0, 1]; breathing: breaths a minute, 4 to 60, or 0; arteries: rigid, or
+             yield, to what presses on them
 Many threads may use one. Raises OstiumError for instruments that are not there or do not go together.)")
           .def(py::init([](std::shared_ptr<VesselHandle> vessel, const NamedTools& tools, std::uint64_t seed,
-                           const std::optional<std::string>& begin, std::optional<double> friction, double breathing) {
+                           const std::optional<std::string>& begin, std::optional<double> friction, double breathing,
+                           const std::string& arteries) {
                  const OthersRun others_run;
                  return std::make_shared<ModelHandle>(
-                     recipe_of(std::move(vessel), tools, seed, begin, friction, breathing));
+                     recipe_of(std::move(vessel), tools, seed, begin, friction, breathing, arteries));
                }),
                py::arg("vessel").none(false), py::arg("tools"), py::arg("seed") = 0, py::arg("begin") = py::none(),
-               py::arg("friction") = py::none(), py::arg("breathing") = 0.0)
+               py::arg("friction") = py::none(), py::arg("breathing") = 0.0, py::arg("arteries") = "rigid")
           .def_property_readonly(
               "vessel",
               [](const ModelHandle& self) { return std::const_pointer_cast<VesselHandle>(self.recipe.vessel); },

@@ -80,6 +80,7 @@ class Model:
         begin: Optional[str] = None,
         friction: Optional[float] = None,
         breathing: float = 0.0,
+        arteries: str = "rigid",
     ) -> None: ...
     @property
     def vessel(self) -> Vessel: ...

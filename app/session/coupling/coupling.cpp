@@ -101,19 +101,19 @@ bool is_empty(const vascular::BalloonModel& model, const vascular::BalloonState&
 }
 
 void look(const CouplingModel& model, const core::State& rods, const vascular::TreatmentState& treatment,
-          const core::StepReport& report, double phase, double breath, CouplingScratch& x, CouplingState& s) {
-  x.locator.set_moment(phase, breath);
+          const core::StepReport& report, const vascular::LumenMoment& moment, CouplingScratch& x, CouplingState& s) {
+  x.locator.set_moment(moment);
   const vascular::Landmarks& marks = model.vessel.patient->anatomy.landmarks;
   const vascular::HeartMotion motion(marks);
-  const Vector3d root_shift =
-      vascular::contraction(phase) * motion.root_displacement() + motion.breath_displacement(marks.p_annulus, breath);
+  const Vector3d root_shift = vascular::contraction(moment.phase) * motion.root_displacement() +
+                              motion.breath_displacement(marks.p_annulus, moment.breath);
   look_at_shafts(model, rods, x, s);
   look_at_balloon(model, rods, treatment, report, x, s);
-  look_at_guide(model, rods, report, phase, breath, root_shift, x, s);
+  look_at_guide(model, rods, report, moment, root_shift, x, s);
   look_at_crimped_stent(model, rods, treatment, s);
   look_at_edge(model, rods, treatment, x, s);
   look_at_wires(model, rods, root_shift, x, s);
-  look_at_valve(model, rods, report, phase, breath, root_shift, s);
+  look_at_valve(model, rods, report, moment, root_shift, s);
 }
 
 void press_with_wire(const CouplingModel& model, const core::StepReport& report, double step_s, CouplingState& s) {

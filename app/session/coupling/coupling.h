@@ -9,6 +9,7 @@
 #include "core/step/step.h"
 #include "data/catalogue/instrument/instrument.h"
 #include "vascular/contrast/cell_locator.h"
+#include "vascular/treatment/artery_bed.h"
 
 namespace ostium::app {
 
@@ -149,11 +150,16 @@ struct CouplingScratch {
   explicit CouplingScratch(const Vessel& vessel);
   vascular::CellLocator locator;
   std::vector<Eigen::Vector3d> points;
+  // Of arteries that give way (artery_loads.h):
+  std::vector<Eigen::Vector3d> load_P_N;  ///< (#cells)
+  std::vector<vascular::BedTube> tubes;
+  vascular::ArteryBedScratch bed;
 };
 
-/// Updates the coupling from the rods after a step, at a phase of the heart and a depth of breath.
+/// Updates the coupling from the rods after a step.
 void look(const CouplingModel& model, const core::State& rods, const vascular::TreatmentState& treatment,
-          const core::StepReport& report, double phase, double breath, CouplingScratch& scratch, CouplingState& state);
+          const core::StepReport& report, const vascular::LumenMoment& moment, CouplingScratch& scratch,
+          CouplingState& state);
 
 /// The force of a coronary wire's tip on the wall, low-pass filtered like all wall forces: a millisecond's peak does
 /// not perforate. Call at every step.

@@ -16,9 +16,9 @@ constexpr double most_held_N = 3;    // a shaft kinks at higher force [estimate]
 constexpr double on_guide_m = 3e-3;  // length at the guide's tip that a stent pushes on
 
 /// The path's frame at that moment; the path is extended straight beyond its ends.
-vascular::PathFrame place_of(const CouplingModel& model, const CouplingState& s, Moment moment) {
+vascular::PathFrame place_of(const CouplingModel& model, const CouplingState& s, const vascular::LumenMoment& moment) {
   const vascular::VesselPath& path = model.treatment.paths[static_cast<std::size_t>(s.branch)];
-  vascular::PathFrame frame = frame_at(model.vessel.coronaries->map, path, s.anchor_m, moment.phase, moment.breath);
+  vascular::PathFrame frame = frame_at(model.vessel.coronaries->map, path, s.anchor_m, moment);
   frame.centre += (s.anchor_m - std::clamp(s.anchor_m, path.s_m.front(), path.s_m.back())) * frame.along;
   return frame;
 }
@@ -35,7 +35,7 @@ double middle_from_tip_m(const data::Instrument& instrument) {
 }  // namespace
 
 void hold_balloon(const CouplingModel& model, const core::State& rods, const vascular::BalloonReport& report,
-                  Moment moment, CouplingState& s) {
+                  const vascular::LumenMoment& moment, CouplingState& s) {
   if (s.balloon < 0 || s.branch < 0 || !(report.pressed_N > 0)) {
     s.held = false;
     return;
@@ -51,7 +51,7 @@ void hold_balloon(const CouplingModel& model, const core::State& rods, const vas
 }
 
 core::Tether tether_on_shaft(const CouplingModel& model, const vascular::TreatmentState& treatment,
-                             const CouplingState& s, int tool, Moment moment) {
+                             const CouplingState& s, int tool, const vascular::LumenMoment& moment) {
   const auto t = static_cast<std::size_t>(tool);
   if (!s.held || model.balloon_of[t] < 0 || model.balloon_of[t] != s.balloon) return {};
   const vascular::BalloonModel& own = model.treatment.balloons[static_cast<std::size_t>(s.balloon)];

@@ -5,19 +5,14 @@
 
 namespace ostium::app {
 
-/// Phases of the heart and the breath.
-struct Moment {
-  double phase = 0, breath = 0;
-};
-
 /// Updates after a step whether the wall holds the balloon, and where along its artery, from the wall's pressure and
 /// the shaft's position. Beyond the friction limit the balloon is dragged along.
 void hold_balloon(const CouplingModel& model, const core::State& rods, const vascular::BalloonReport& report,
-                  Moment moment, CouplingState& state);
+                  const vascular::LumenMoment& moment, CouplingState& state);
 
 /// Force of the wall on the balloon's shaft in the step that ends at `moment`: holds its middle along the artery.
 core::Tether tether_on_shaft(const CouplingModel& model, const vascular::TreatmentState& treatment,
-                             const CouplingState& state, int tool, Moment moment);
+                             const CouplingState& state, int tool, const vascular::LumenMoment& moment);
 
 /// For the balloon's shaft, between its markers: the force of the guide's edge on the caught stent. For the guide's
 /// tip: the force of the stent it pushes.

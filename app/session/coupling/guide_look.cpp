@@ -22,8 +22,9 @@ int guide_of(const CouplingModel& model, const core::State& rods) {
 
 }  // namespace
 
-void look_at_guide(const CouplingModel& model, const core::State& rods, const core::StepReport& report, double phase,
-                   double breath, const Vector3d& root_shift, CouplingScratch& x, CouplingState& s) {
+void look_at_guide(const CouplingModel& model, const core::State& rods, const core::StepReport& report,
+                   const vascular::LumenMoment& moment, const Vector3d& root_shift, CouplingScratch& x,
+                   CouplingState& s) {
   const int g = guide_of(model, rods);
   s.guide = g;
   s.tip = {}, s.covered = s.filled_m = 0, s.in_ventricle = s.thick_wire = false;
@@ -33,7 +34,7 @@ void look_at_guide(const CouplingModel& model, const core::State& rods, const co
   const Vector3d p = own.position[rod.elements], direction = direction_at_tip(rod, own);
   const vascular::Patient& patient = *model.vessel.patient;
   s.tip = tip_place(x.locator, model.physiology.flow.tree, model.physiology.contrast, patient,
-                    model.vessel.coronaries->map, phase, breath, p, direction);
+                    model.vessel.coronaries->map, moment, p, direction);
   s.in_ventricle = beyond_valve_m(patient.anatomy.landmarks, p - root_shift) > 0;
   for (const core::Touch& touch : report.touches)
     if (touch.rod == g && touch.node == rod.elements) {

@@ -30,14 +30,15 @@ void look_at_crimped_stent(const CouplingModel& model, const core::State& rods,
                            const vascular::TreatmentState& treatment, CouplingState& s);
 
 // guide_look.cpp: where the guide's tip is, what it pushes.
-void look_at_guide(const CouplingModel& model, const core::State& rods, const core::StepReport& report, double phase,
-                   double breath, const Eigen::Vector3d& root_shift, CouplingScratch& x, CouplingState& s);
+void look_at_guide(const CouplingModel& model, const core::State& rods, const core::StepReport& report,
+                   const vascular::LumenMoment& moment, const Eigen::Vector3d& root_shift, CouplingScratch& x,
+                   CouplingState& s);
 /// A guide that goes so deep that it meets a stent in the wall pushes its end, if it does not lie in the middle of it.
 void look_at_edge(const CouplingModel& model, const core::State& rods, const vascular::TreatmentState& treatment,
                   CouplingScratch& x, CouplingState& s);
 
 // valve_look.cpp: what lies through the aortic valve, and irritates the ventricle.
-void look_at_valve(const CouplingModel& model, const core::State& rods, const core::StepReport& report, double phase,
-                   double breath, const Eigen::Vector3d& root_shift, CouplingState& s);
+void look_at_valve(const CouplingModel& model, const core::State& rods, const core::StepReport& report,
+                   const vascular::LumenMoment& moment, const Eigen::Vector3d& root_shift, CouplingState& s);
 
 }  // namespace ostium::app

@@ -67,11 +67,11 @@ Labeller::Labeller(const SessionModel& model) : model_(model), triangles_(triang
 /// The lumen as it is: beating, breathing, narrowed, opened by treatment.
 std::vector<Vector3d> Labeller::wall_at(const SessionState& state) const {
   const Vessel& vessel = *model_.vessel;
-  const double phase = state.blood.heart.phase, depth = breath(model_, state);
+  const vascular::LumenMoment at = moment(model_, state);
   if (!vessel.patient) return vessel.wall.frames[0];
-  if (!vessel.coronaries) return vessel.patient->lumen.at(phase, depth).vertices;
+  if (!vessel.coronaries) return vessel.patient->lumen.at(at.phase, at.breath).vertices;
   std::vector<Vector3d> wall;
-  vessel.coronaries->shape->at(state.blood.radius_m, phase, depth, wall);
+  vessel.coronaries->shape->at(state.blood.radius_m, at, wall);
   return wall;
 }
 

@@ -79,10 +79,10 @@ double winding(const std::vector<Vector3d>& vertices, const core::SurfaceDescrip
 
 Penetration penetration(const SessionModel& model, const SessionState& state) {
   const core::SurfaceDescription& wall = model.vessel->wall;
-  const double frame = vessel_frame(*model.vessel, state.blood.heart.phase), sway = breath(model, state);
+  const vascular::LumenMoment at = moment(model, state);
   std::vector<Vector3d> vertices(wall.frames[0].size());
   for (std::size_t v = 0; v < vertices.size(); ++v)
-    vertices[v] = wall_vertex(*model.vessel, state.wall_m, static_cast<int>(v), frame, sway);
+    vertices[v] = wall_vertex(*model.vessel, state.wall_m, static_cast<int>(v), at);
 
   std::vector<Ball> balls = balls_of(model, state);
   double largest = 0;

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <random>
 
+#include "app/session/coupling/artery_loads.h"
 #include "app/session/coupling/device_constraints.h"
 #include "core/base/units.h"
 #include "core/rod/initial_state.h"
@@ -75,6 +76,7 @@ SessionModel make_session(std::shared_ptr<const Vessel> vessel, std::vector<Sess
     model.treatment.injury.seed = model.treatment.thrombus.seed = model.treatment.drugs.seed = options.seed;
     model.treatment.drugs.others = options.drugs;
     model.balloon_of = add_devices(model.tools, options.seed, model.treatment);
+    if (options.arteries_yield) model.bed = vascular::make_artery_bed(model.physiology.flow.tree);
   } else {
     model.balloon_of.assign(model.tools.size(), -1);
   }
@@ -183,6 +185,7 @@ SessionState make_state(const SessionModel& model, std::uint64_t seed) {
   state.treatment = make_state(model.treatment, model.physiology.flow.tree);
   state.coupling = make_coupling(*model.vessel);
   for (const vascular::FlowCell& cell : model.physiology.flow.tree.cells) state.wall_m.push_back(cell.diseased_m);
+  if (model.bed) state.bed.aside_P = state.wall_aside_P = std::vector<Vector3d>(state.wall_m.size(), Vector3d::Zero());
   vascular::PhysiologyScratch scratch;
   vascular::PhysiologyInputs inputs;
   inputs.heart.rate_1_min = model.vessel->rate_1_min;
@@ -198,10 +201,6 @@ const char* phase_name(int phase) {
   constexpr int first = core::step_phases;
   static_assert(std::size(own) == std::size_t{session_phases} - first);
   return phase < first ? core::step_phase_names[phase] : own[phase - first];
-}
-
-double vessel_frame(const Vessel& vessel, double phase) {
-  return vessel.beats() ? phase * static_cast<double>(vessel.wall.frames.size()) : 0;
 }
 
 namespace {
@@ -270,14 +269,9 @@ void move_hands(const SessionModel& model, const SessionInputs& inputs, SessionS
   }
 }
 
-/// The phases at the end of the current step.
-Moment moment(const SessionModel& model, const SessionState& state) {
-  return {state.blood.heart.phase, breath(model, state)};
-}
-
 void hold_shafts(const SessionModel& model, const SessionState& state, core::Inputs& core) {
   const CouplingModel coupling = coupling_of(model);
-  const Moment end = moment(model, state);
+  const vascular::LumenMoment end = moment(model, state);
   for (std::size_t t = 0; t < model.tools.size(); ++t) {
     const int tool = static_cast<int>(t);
     core.rods[t].load = load_on_shaft(coupling, state.rods, state.coupling, tool);
@@ -292,11 +286,19 @@ void tie_stents(const SessionModel& model, SessionState& state) {
     if (stent.where != vascular::StentState::deployed || stent.branch < 0 ||
         stent.ties.back().triangle != vascular::StentTie::untied)
       continue;
-    model.vessel->coronaries->ties->tie_next(model.treatment.stents[n],
-                                             model.treatment.paths[static_cast<std::size_t>(stent.branch)],
-                                             state.treatment.wall, state.blood.heart.phase, stent);
+    model.vessel->coronaries->ties->tie_next(
+        model.treatment.stents[n], model.treatment.paths[static_cast<std::size_t>(stent.branch)], state.treatment.wall,
+        {.phase = state.blood.heart.phase, .aside_P = state.wall_aside_P}, stent);
     return;
   }
+}
+
+/// Arteries that give way follow what presses on them and straightens them; contact's wall follows the arteries.
+void give_way(const SessionModel& model, const SessionReport& report, SessionState& state, CouplingScratch& x) {
+  find_artery_loads(coupling_of(model), report.rods, state.treatment, report.treatment.balloon, moment(model, state),
+                    state.coupling, x);
+  step(*model.bed, {x.load_P_N, x.tubes}, look_every * model.step_s(), state.bed, x.bed);
+  if (state.rods.step % aside_every == 0) follow_aside(state.bed.aside_P, state.wall_aside_P);
 }
 
 /// Advances balloon and stent, then blood and contrast, with the rods' current positions.
@@ -306,14 +308,14 @@ void treat(const SessionModel& model, const SessionInputs& inputs, bool R_wave, 
   const core::InPhase phase(x.rods.clock, treating);
   if (state.rods.step % look_every == 0) {
     const core::InPhase look_phase(x.rods.clock, looking);
-    look(coupling, state.rods, state.treatment, report.rods, state.blood.heart.phase, breath(model, state), *x.coupling,
-         state.coupling);
+    look(coupling, state.rods, state.treatment, report.rods, moment(model, state), *x.coupling, state.coupling);
   }
   press_with_wire(coupling, report.rods, model.step_s(), state.coupling);
   report.treatment =
       step(model.treatment, treatment_inputs(coupling, inputs.delivery, state.coupling), model.step_s(),
            state.treatment, {model.physiology.flow, state.blood, x.physiology_inputs.occupied_m}, x.treatment);
   state.coupling.blocked = report.treatment.blocked;
+  if (model.bed && state.rods.step % look_every == 0) give_way(model, report, state, *x.coupling);
   tie_stents(model, state);
   hold_balloon(coupling, state.rods, report.treatment.balloon, moment(model, state), state.coupling);
   set_physiology_inputs(coupling, inputs.delivery, state.coupling, x.physiology_inputs);
@@ -358,12 +360,16 @@ double breath(const SessionModel& model, const SessionState& state) {
   return model.breaths_1_min > 0 ? vascular::breath_depth(state.breath.phase) : 0;
 }
 
+vascular::LumenMoment moment(const SessionModel& model, const SessionState& state) {
+  return {state.blood.heart.phase, breath(model, state), state.wall_aside_P};
+}
+
 void step(const SessionModel& model, const SessionInputs& inputs, SessionState& state, SessionScratch& scratch,
           SessionReport& report) {
   assert(inputs.tools.size() == model.tools.size());
   const core::InPhase phase(scratch.rods.clock, moving_heart);
   const bool R_wave = beat(model, inputs, state, scratch.inputs.surfaces[0]);
-  if (model.has_patient()) scratch.set_wall(model, state.wall_m);
+  if (model.has_patient()) scratch.set_wall(model, state.wall_m, state.wall_aside_P);
   move_hands(model, inputs, state, report, scratch.inputs);
   if (model.has_patient()) hold_shafts(model, state, scratch.inputs);
   step(scratch.now, scratch.inputs, state.rods, scratch.rods, report.rods);

@@ -23,11 +23,12 @@ struct SessionModel {
   std::shared_ptr<const Vessel> vessel;
   std::vector<SessionTool> tools;  ///< outermost first; tool i is rod i
   core::Model rods;
-  core::EndState entry;                  ///< the introducer
-  vascular::PhysiologyModel physiology;  ///< for a mesh, the heart only
-  vascular::TreatmentModel treatment;    ///< with the balloons and stents that the tools carry; empty for a mesh
-  std::vector<int> balloon_of;           ///< (#tools) index in treatment.balloons, or -1
-  double breaths_1_min = 0;              ///< of the patient; 0: breath held at expiration
+  core::EndState entry;                         ///< the introducer
+  vascular::PhysiologyModel physiology;         ///< for a mesh, the heart only
+  vascular::TreatmentModel treatment;           ///< with the balloons and stents that the tools carry; empty for a mesh
+  std::vector<int> balloon_of;                  ///< (#tools) index in treatment.balloons, or -1
+  double breaths_1_min = 0;                     ///< of the patient; 0: breath held at expiration
+  std::optional<vascular::ArteryBedModel> bed;  ///< of a patient's arteries that give way to instruments
   double step_s() const { return rods.step_s; }
   bool has_patient() const { return vessel->coronaries != nullptr; }
 };
@@ -35,6 +36,7 @@ struct SessionModel {
 struct SessionOptions {
   std::uint64_t seed = 0;          ///< for the person's physiology and for chance
   double breaths_1_min = 0;        ///< of a case's patient, 4 to 60; 0: the breath is held
+  bool arteries_yield = false;     ///< a case's coronary arteries give way to what presses on them
   std::optional<double> friction;  ///< of the vessel's wall, overrides vessel_friction; [0, 1]
   std::string begin;  ///< an artery: the introducer is placed before its ostium (entry_ahead_of); empty: at the access
   std::vector<vascular::Drug> drugs;  ///< of the catalogue, that may be given
@@ -125,13 +127,21 @@ struct SessionState {
   CouplingState coupling;
   std::vector<double> wall_m;  ///< (#cells) radius of contact's wall (opened_wall.h)
   vascular::BreathState breath;
+  vascular::ArteryBedState bed;
+  std::vector<Eigen::Vector3d> wall_aside_P;  ///< (#cells) how far contact's wall lies aside; empty without a bed
 };
 constexpr auto fields(const SessionState*) {
   using S = SessionState;
-  return std::tuple{core::field("rods", &S::rods),           core::field("hands", &S::hands),
-                    core::field("c_arm", &S::c_arm),         core::field("blood", &S::blood),
-                    core::field("treatment", &S::treatment), core::field("bedside", &S::coupling),
-                    core::field("wall_m", &S::wall_m),       core::field("breath", &S::breath)};
+  return std::tuple{core::field("rods", &S::rods),
+                    core::field("hands", &S::hands),
+                    core::field("c_arm", &S::c_arm),
+                    core::field("blood", &S::blood),
+                    core::field("treatment", &S::treatment),
+                    core::field("bedside", &S::coupling),
+                    core::field("wall_m", &S::wall_m),
+                    core::field("breath", &S::breath),
+                    core::field("bed", &S::bed),
+                    core::field("wall_aside_m", &S::wall_aside_P)};
 }
 
 /// The initial state: a circulation in its periodic state. Seed 0: the heart at its R wave, tools as packaged; other
@@ -174,7 +184,8 @@ struct SessionScratch {
   // For a patient.
   std::optional<OpenedWall> wall;  ///< none: that of the vessel
   /// The wall of this state, which is a copy from the first change on.
-  void set_wall(const SessionModel& model, const std::vector<double>& wall_m);
+  void set_wall(const SessionModel& model, const std::vector<double>& wall_m,
+                const std::vector<Eigen::Vector3d>& wall_aside_P);
   std::optional<CouplingScratch> coupling;
   vascular::PhysiologyInputs physiology_inputs;
   vascular::PhysiologyScratch physiology;
@@ -215,7 +226,7 @@ double waist(const vascular::BalloonModel& model, const vascular::BalloonState& 
 /// Depth of the patient's breath at the end of a step (0: expiration, 1: full inspiration).
 double breath(const SessionModel& model, const SessionState& state);
 
-/// The vessel's frame number at a phase, for SurfaceDescription.
-double vessel_frame(const Vessel& vessel, double phase);
+/// How the heart's vessels lie at the end of a step.
+vascular::LumenMoment moment(const SessionModel& model, const SessionState& state);
 
 }  // namespace ostium::app

@@ -19,10 +19,11 @@ void SessionScratch::own_the_wall(const SessionModel& model) {
   wall.emplace(*model.vessel, *own);
 }
 
-void SessionScratch::set_wall(const SessionModel& model, const std::vector<double>& wall_m) {
-  if (!wall && !is_opened(*model.vessel, wall_m)) return;
+void SessionScratch::set_wall(const SessionModel& model, const std::vector<double>& wall_m,
+                              const std::vector<Eigen::Vector3d>& wall_aside_P) {
+  if (!wall && !is_opened(*model.vessel, wall_m) && !is_aside(wall_aside_P)) return;
   if (!wall) own_the_wall(model);
-  wall->set(wall_m);
+  wall->set(wall_m, wall_aside_P);
 }
 
 }  // namespace ostium::app

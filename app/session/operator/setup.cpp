@@ -27,8 +27,8 @@ namespace {
 namespace fs = std::filesystem;
 
 /// What --set gives beside the tools' instruments.
-constexpr std::string_view settings[] = {"person",   "heart_rate", "breathing", "hand_speed",
-                                         "friction", "begin",      "stuck"};
+constexpr std::string_view settings[] = {"person",     "heart_rate", "breathing", "arteries",
+                                         "hand_speed", "friction",   "begin",     "stuck"};
 
 fs::path folder_of(const data::Script& script) { return fs::path(script.file).parent_path(); }
 
@@ -179,6 +179,11 @@ void set_value(const std::string& key, const std::string& value, RunSetup& setup
       setup.breaths_1_min = rate;
     else
       throw data::LoadError(fmt::format("breathing is \"{}\"; expected {}", value, expected));
+  } else if (key == "arteries") {
+    if ((value != "rigid" && value != "yield") || (value == "yield" && setup.is_mesh()))
+      throw data::LoadError(
+          fmt::format("arteries is \"{}\"; expected rigid, or yield for those of a case's patient", value));
+    setup.arteries_yield = value == "yield";
   } else if (key == "hand_speed") {
     setup.hand_speed = number(key, value, 0.01, 10, "how many times the script's speeds, 0.01 to 10");
   } else if (key == "friction") {
@@ -223,6 +228,7 @@ SessionModel make_session(const RunSetup& setup, std::shared_ptr<const Vessel> v
   return make_session(std::move(vessel), std::move(tools),
                       {.seed = setup.seed,
                        .breaths_1_min = setup.breaths_1_min,
+                       .arteries_yield = setup.arteries_yield,
                        .friction = setup.friction,
                        .begin = setup.begin,
                        .drugs = std::move(drugs)});
@@ -238,6 +244,7 @@ std::string to_json(const RunSetup& setup) {
   if (setup.person) out["person"] = *setup.person;
   if (setup.rate_1_min) out["heart_rate_1_min"] = *setup.rate_1_min;
   if (setup.breaths_1_min > 0) out["breathing_1_min"] = setup.breaths_1_min;
+  if (setup.arteries_yield) out["arteries"] = "yield";
   if (setup.friction) out["friction"] = *setup.friction;
   if (!setup.begin.empty()) out["begin"] = setup.begin;
   if (!setup.stuck.empty()) out["stuck"] = setup.stuck;
@@ -262,6 +269,7 @@ RunSetup setup_from_json(const std::string& file, const std::string& text) {
     if (in.contains("person")) setup.person = in.at("person");
     if (in.contains("heart_rate_1_min")) setup.rate_1_min = in.at("heart_rate_1_min");
     if (in.contains("breathing_1_min")) setup.breaths_1_min = in.at("breathing_1_min");
+    if (in.contains("arteries")) setup.arteries_yield = in.at("arteries") == "yield";
     if (in.contains("begin")) setup.begin = in.at("begin");
     if (in.contains("stuck")) setup.stuck = in.at("stuck");
     if (in.contains("friction")) setup.friction = in.at("friction");

@@ -25,6 +25,7 @@ struct RunSetup {
   std::uint64_t seed = 0;
   double hand_speed = 1;           ///< factor on the script's speeds; (0, 10]
   double breaths_1_min = 0;        ///< for a case's patient; 0: the breath is held
+  bool arteries_yield = false;     ///< a case's coronary arteries give way to what presses on them
   std::optional<double> friction;  ///< of the vessel's wall, overrides vessel_friction; [0, 1]
 
   std::string stuck;  ///< name of a tool with a failed drive: the hand moves but the tool does not; empty: none
@@ -43,8 +44,8 @@ void set_script(const data::Script& script, RunSetup& setup);
 /// Throws LoadError for a size that cannot be measured this way, and for a missing lesion.
 std::vector<std::string> choose_sizes(const Vessel& vessel, RunSetup& setup);
 /// Overrides one value: a tool's instrument (of the catalogue, or a file), or one of `person`, `heart_rate`,
-/// `breathing`, `hand_speed`, `friction`, `begin`, `stuck`. Call after set_script. The tool is then no longer chosen by
-/// size. Throws LoadError listing the valid keys or values.
+/// `breathing`, `arteries`, `hand_speed`, `friction`, `begin`, `stuck`. Call after set_script. The tool is then no
+/// longer chosen by size. Throws LoadError listing the valid keys or values.
 void set_value(const std::string& key, const std::string& value, RunSetup& setup);
 
 /// Throws LoadError where an imported case has other vessels by now than `setup` was made with.

@@ -222,6 +222,19 @@ struct ToolNow {
   int sphere;  ///< of the vessel index, at the tip; -1: outside the body
 };
 
+/// How far the wall that instruments meet lies aside, at most.
+double most_aside_m(const RunNow& x) {
+  double most = 0;
+  for (const Eigen::Vector3d& aside : x.state.wall_aside_P) most = std::max(most, aside.norm());
+  return most;
+}
+
+/// Of arteries that give way.
+constexpr Signal<RunNow> of_the_bed[] = {
+    {"artery_aside_mm", "mm", "how far instruments push or straighten an artery aside, at most",
+     [](const RunNow& x) { return 1e3 * most_aside_m(x); }},
+};
+
 constexpr Signal<ToolNow> of_a_tool[] = {
     {"inserted_mm", "mm", "length in the body", [](const ToolNow& x) -> double { return 1e3 * x.rod.inserted_m; }},
     {"turned_deg", "degrees", "at the hub",
@@ -256,12 +269,14 @@ std::vector<SignalDefinition> signal_definitions(const SessionModel& model) {
   if (model.has_patient()) add(of_a_patient);
   for (const SessionTool& tool : model.tools) add(of_a_tool, tool.name + ".");
   if (model.breaths_1_min > 0) add(of_the_breath);
+  if (model.bed) add(of_the_bed);
   return out;
 }
 
 std::size_t signal_count(const SessionModel& model) {
   return std::size(of_the_run) + (model.has_patient() ? std::size(of_a_patient) : 0) +
-         model.tools.size() * std::size(of_a_tool) + (model.breaths_1_min > 0 ? std::size(of_the_breath) : 0);
+         model.tools.size() * std::size(of_a_tool) + (model.breaths_1_min > 0 ? std::size(of_the_breath) : 0) +
+         (model.bed ? std::size(of_the_bed) : 0);
 }
 
 std::vector<std::string> signal_names(const SessionModel& model) {
@@ -277,6 +292,7 @@ void put_signals(const SessionModel& model, const SessionState& state, const Ses
   if (model.has_patient()) put(of_a_patient, PatientNow(model, state, inputs), row);
   for (int t = 0; t < static_cast<int>(model.tools.size()); ++t) put(of_a_tool, ToolNow(model, state, report, t), row);
   if (model.breaths_1_min > 0) put(of_the_breath, run, row);
+  if (model.bed) put(of_the_bed, run, row);
 }
 
 }  // namespace ostium::app

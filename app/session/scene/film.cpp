@@ -69,7 +69,8 @@ const fluoro::Picture& Film::frame(const SessionModel& model, const SessionState
   const FilmOptions& o = p.options;
   fluoro::Scene other;
   if (p.patient)
-    p.patient->at(blood_to_show(model, state, o.fill), occupied_m(model, state), breath(model, state));
+    p.patient->at(blood_to_show(model, state, o.fill), occupied_m(model, state), breath(model, state),
+                  state.wall_aside_P);
   else
     other = p.no_blood ? p.no_blood->at(state.blood.heart.phase, breath(model, state)) : p.mesh;
   fluoro::Scene& scene = p.patient ? p.patient->scene() : other;

@@ -98,7 +98,7 @@ std::vector<double> occupied_m(const SessionModel& model, const SessionState& st
 void add_treatment(const SessionModel& model, const SessionState& state, fluoro::Scene& scene) {
   const Coronaries& c = *model.vessel->coronaries;
   const CouplingState& b = state.coupling;
-  const double phase = state.blood.heart.phase, depth = breath(model, state);
+  const vascular::LumenMoment at = moment(model, state);
   const auto path_of = [&](double branch) -> const vascular::VesselPath& {
     return model.treatment.paths[static_cast<std::size_t>(branch)];
   };
@@ -109,12 +109,12 @@ void add_treatment(const SessionModel& model, const SessionState& state, fluoro:
                          state.treatment.balloon.was_filled && b.branch >= 0;
     if (stent.branch >= 0 && (stent.where == vascular::StentState::deployed || opening))
       add_stent(model.treatment.stents[i], stent, path_of(stent.branch), *c.patient, c.map, *c.shape,
-                state.blood.radius_m, phase, depth, scene);
+                state.blood.radius_m, at, scene);
   }
   if (b.balloon >= 0 && b.branch >= 0)
     add_balloon(model.treatment.balloons[static_cast<std::size_t>(b.balloon)], state.treatment.balloon,
-                path_of(b.branch), b.middle_m, c.map, phase, depth, false, scene);  // its shaft draws the markers
-  add_pools(state.treatment.injury, c.map, state.blood.radius_m, phase, depth, scene);
+                path_of(b.branch), b.middle_m, c.map, at, false, scene);  // its shaft draws the markers
+  add_pools(state.treatment.injury, c.map, state.blood.radius_m, at, scene);
 }
 
 std::vector<fluoro::Shaft> shafts_of(const SessionModel& model, const SessionState& state) {

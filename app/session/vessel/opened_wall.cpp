@@ -37,45 +37,81 @@ bool is_opened(const Vessel& vessel, const std::vector<double>& wall_m) {
                      [](double radius_m, const vascular::FlowCell& cell) { return radius_m == cell.diseased_m; });
 }
 
-OpenedWall::OpenedWall(const Vessel& vessel, core::Surface& surface)
-    : coronaries_(*vessel.coronaries), editor_(vessel.wall, surface), now_m_(untreated(vessel.coronaries->tree())) {
-  changed_.reserve(now_m_.size());
+void follow_aside(const std::vector<Eigen::Vector3d>& aside_P, std::vector<Eigen::Vector3d>& wall_aside_P) {
+  for (std::size_t c = 0; c < aside_P.size(); ++c) {
+    const Eigen::Vector3d lags = aside_P[c] - wall_aside_P[c];
+    if (const double far_m = lags.norm(); far_m > aside_follows_m)
+      wall_aside_P[c] += std::min(1.0, aside_step_m / far_m) * lags;
+  }
 }
 
-void OpenedWall::set(const std::vector<double>& wall_m) {
-  if (wall_m == now_m_) return;
-  changed_.clear();
-  for (std::size_t c = 0; c < now_m_.size(); ++c)
-    if (wall_m[c] != now_m_[c]) changed_.push_back(static_cast<int>(c));
+bool is_aside(const std::vector<Eigen::Vector3d>& wall_aside_P) {
+  return std::any_of(wall_aside_P.begin(), wall_aside_P.end(), [](const Eigen::Vector3d& p) { return !p.isZero(0); });
+}
+
+OpenedWall::OpenedWall(const Vessel& vessel, core::Surface& surface)
+    : coronaries_(*vessel.coronaries),
+      editor_(vessel.wall, surface),
+      now_m_(untreated(vessel.coronaries->tree())),
+      is_moved_(coronaries_.map.sources.size(), 0),
+      placed_(3, static_cast<Eigen::Index>(coronaries_.map.sources.size())) {
+  moved_.reserve(is_moved_.size());
+}
+
+void OpenedWall::list_opened(const std::vector<double>& wall_m) {
+  for (std::size_t c = 0; c < now_m_.size(); ++c) {
+    if (wall_m[c] == now_m_[c]) continue;
+    for (int k = coronaries_.first_vertex[c]; k < coronaries_.first_vertex[c + 1]; ++k)
+      if (const int v = coronaries_.vertices[k]; !is_moved_[v]) is_moved_[v] = 1, moved_.push_back(v);
+  }
   now_m_ = wall_m;
-  for (int c : changed_)
-    for (int k = coronaries_.first_vertex[c]; k < coronaries_.first_vertex[c + 1]; ++k) {
-      const int v = coronaries_.vertices[k];
-      for (int f = 0; f < vascular::beat_frames; ++f)
-        editor_.place(v, f,
-                      coronaries_.shape->vertex(static_cast<std::size_t>(v), now_m_,
-                                                static_cast<double>(f) / vascular::beat_frames, 0));
-    }
+}
+
+void OpenedWall::list_aside(const std::vector<Eigen::Vector3d>& wall_aside_P) {
+  vertex_aside_P_.resize(is_moved_.size(), Eigen::Vector3d::Zero());
+  now_aside_P_ = wall_aside_P;
+  for (std::size_t v = 0; v < is_moved_.size(); ++v) {
+    const Eigen::Vector3d aside = coronaries_.shape->aside(v, {.aside_P = now_aside_P_});
+    if (aside == vertex_aside_P_[v]) continue;
+    vertex_aside_P_[v] = aside;
+    if (!is_moved_[v]) is_moved_[v] = 1, moved_.push_back(static_cast<int>(v));
+  }
+}
+
+void OpenedWall::set(const std::vector<double>& wall_m, const std::vector<Eigen::Vector3d>& wall_aside_P) {
+  if (wall_m != now_m_) list_opened(wall_m);
+  if (wall_aside_P != now_aside_P_) list_aside(wall_aside_P);
+  if (moved_.empty()) return;
+  for (int f = 0; f < vascular::beat_frames; ++f) {
+    coronaries_.shape->at(moved_, now_m_,
+                          {.phase = static_cast<double>(f) / vascular::beat_frames, .aside_P = now_aside_P_}, placed_);
+    for (const int v : moved_) editor_.place(v, f, placed_.col(v).cast<double>());
+  }
+  for (const int v : moved_) is_moved_[v] = 0;
+  moved_.clear();
   editor_.refit();
 }
 
-Eigen::Vector3d wall_vertex(const Vessel& vessel, const std::vector<double>& wall_m, int vertex, double frame,
-                            double breath) {
+Eigen::Vector3d wall_vertex(const Vessel& vessel, const std::vector<double>& wall_m, int vertex,
+                            const vascular::LumenMoment& moment) {
+  const double frame = vessel_frame(vessel, moment.phase);
+  const auto untreated = [&] { return vertex_at(vessel.wall, vertex, frame, moment.breath); };
   if (!vessel.coronaries || static_cast<std::size_t>(vertex) >= vessel.coronaries->map.sources.size())
-    return vertex_at(vessel.wall, vertex, frame, breath);  // a mesh or the ventricle
+    return untreated();  // a mesh or the ventricle
   const Coronaries& c = *vessel.coronaries;
-  const vascular::VertexSource& from = c.map.sources[static_cast<std::size_t>(vertex)].first;
+  const auto v = static_cast<std::size_t>(vertex);
+  const vascular::VertexSource& from = c.map.sources[v].first;
   const auto untouched = [&](int cell) { return wall_m[cell] == c.tree().cells[cell].diseased_m; };
   if (from.part != vascular::VertexSource::coronary || (untouched(from.below) && untouched(from.above)))
-    return vertex_at(vessel.wall, vertex, frame, breath);
+    return untreated() + c.shape->aside(v, moment);
   const double k = std::floor(frame);
   const std::array<double, 4> w = core::frame_weights(frame - k);
   Eigen::Vector3d p = Eigen::Vector3d::Zero();
   for (int j = 0; j < 4; ++j) {
     const int f =
         ((static_cast<int>(k) + j - 1) % vascular::beat_frames + vascular::beat_frames) % vascular::beat_frames;
-    p += w[j] * c.shape->vertex(static_cast<std::size_t>(vertex), wall_m,
-                                static_cast<double>(f) / vascular::beat_frames, breath);
+    p += w[j] *
+         c.shape->vertex(v, wall_m, {static_cast<double>(f) / vascular::beat_frames, moment.breath, moment.aside_P});
   }
   return p;
 }

@@ -102,6 +102,10 @@ Vector3d middle(const std::vector<Vector3d>& points) {
 
 }  // namespace
 
+double vessel_frame(const Vessel& vessel, double phase) {
+  return vessel.beats() ? phase * static_cast<double>(vessel.wall.frames.size()) : 0;
+}
+
 double ascending_diameter_m(const Vessel& vessel) {
   if (!vessel.patient) return 0;
   const vascular::TreeSphere* nearest = nullptr;

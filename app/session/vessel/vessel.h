@@ -28,6 +28,9 @@ struct Vessel {
   bool beats() const { return wall.frames.size() > 1; }
 };
 
+/// Its wall's frame number at a cardiac phase.
+double vessel_frame(const Vessel& vessel, double phase);
+
 /// The aorta's diameter half-way between valve and arch, m; 0 if there is none.
 double ascending_diameter_m(const Vessel& vessel);
 

@@ -122,8 +122,8 @@ TEST(Breathing, WallWayAndPictureMoveAsTheAnatomySays) {
   double farthest = 0;
   for (std::size_t v = 0; v < patient.lumen.vertices(); v += 11) {
     const int n = static_cast<int>(v);
-    const Eigen::Vector3d moved =
-        wall_vertex(*model.vessel, in.wall_m, n, 5, 1) - wall_vertex(*model.vessel, out.wall_m, n, 5, 0);
+    const Eigen::Vector3d moved = wall_vertex(*model.vessel, in.wall_m, n, {.phase = 5 / 24.0, .breath = 1}) -
+                                  wall_vertex(*model.vessel, out.wall_m, n, {.phase = 5 / 24.0});
     EXPECT_LT((moved - patient.lumen.breath[v]).norm(), 1e-12);
     farthest = std::max(farthest, moved.norm());
   }

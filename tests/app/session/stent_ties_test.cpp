@@ -53,8 +53,8 @@ TEST(StentTies, EachPointIsTiedToTheNearestPlaceOfTheWall) {
   vascular::Mesh mesh{.vertices = {}, .triangles = c.patient->lumen.triangles};
   c.shape->at(wall.radius_m, phase, 0, mesh.vertices);
   const vascular::BoundingVolumeHierarchy surface(mesh);
-  tie_to_wall(*c.ties, model, path, wall, phase, stent);
-  const auto points = points_on_path(model, stent, c.map, path, phase);
+  tie_to_wall(*c.ties, model, path, wall, {.phase = phase}, stent);
+  const auto points = points_on_path(model, stent, c.map, path, {.phase = phase});
   for (std::size_t i = 0; i < points.size(); ++i) {
     const vascular::StentTie& tie = stent.ties[i];
     ASSERT_GE(tie.triangle, 0);

@@ -33,7 +33,7 @@ TEST(CellLocator, AMarkerPairIsFoundAgainAtEveryMomentOfTheBeat) {
   const VesselPath path = path_along(w.tree, far);
   const std::vector<VesselPath> paths = all_paths(w.tree);
   for (double phase : {0.0, 0.2, 0.36, 0.7}) {
-    locator.set_moment(phase, 0);
+    locator.set_moment({.phase = phase});
     const Eigen::Vector3d beside(0.3e-3, 0.2e-3, -0.1e-3);
     const auto seat = seat_of(locator, w.tree, paths, locator.centre(near) + beside, locator.centre(far) + beside);
     ASSERT_TRUE(seat);
@@ -50,7 +50,7 @@ TEST(CellLocator, AMarkerPairIsFoundAgainAtEveryMomentOfTheBeat) {
 TEST(CellLocator, NoCellIsNearerThanTheOneFound) {
   const Ward& w = ward();
   CellLocator locator(w.map, w.tree);
-  locator.set_moment(0.3, 0.5);
+  locator.set_moment({.phase = 0.3, .breath = 0.5});
   const auto cells = static_cast<int>(w.tree.cells.size());
   std::mt19937 random(1);
   std::normal_distribution<double> away(0, 4e-3);
@@ -76,7 +76,7 @@ TEST(CellLocator, ByAForkADeviceLiesWhereItsWireGoes) {
   const std::vector<VesselPath> paths = all_paths(w.tree);
   const int lad = w.tree.branch("LAD"), lcx = w.tree.branch("LCx"), near = w.tree.cell_at(w.tree.branch("LM"), 2e-3);
   for (double phase : {0.0, 0.36, 0.7}) {
-    locator.set_moment(phase, 0);
+    locator.set_moment({.phase = phase});
     // Between both arteries, slightly nearer to one.
     const Eigen::Vector3d p_lad = locator.centre(w.tree.cell_at(lad, 1.5e-3)),
                           p_lcx = locator.centre(w.tree.cell_at(lcx, 1.5e-3));
@@ -98,7 +98,7 @@ TEST(CellLocator, ByAForkADeviceLiesWhereItsWireGoes) {
 TEST(CellLocator, AShaftFillsTheCellsItRunsThroughAndNoOthers) {
   const Ward& w = ward();
   CellLocator locator(w.map, w.tree);
-  locator.set_moment(0.5, 0);
+  locator.set_moment({.phase = 0.5});
   const VesselPath path = path_along(w.tree, w.tree.cell_at(w.tree.branch("RCA"), 60e-3));
   std::vector<Eigen::Vector3d> nodes;
   for (std::size_t k = 0; k < path.cells.size(); k += 3) nodes.push_back(locator.centre(path.cells[k]));
@@ -114,11 +114,11 @@ TEST(CellLocator, AShaftFillsTheCellsItRunsThroughAndNoOthers) {
 TEST(CellLocator, ATipIsInTheCoronaryAtItsOstiumOrInTheAorta) {
   const Ward& w = ward();
   CellLocator locator(w.map, w.tree);
-  locator.set_moment(0, 0);
+  locator.set_moment({});
   const int first = w.tree.branches[w.tree.branch("RCA")].first;
   const Eigen::Vector3d in = (locator.centre(first + 3) - locator.centre(first)).normalized();
   const auto at = [&](const Eigen::Vector3d& p, const Eigen::Vector3d& direction) {
-    return tip_place(locator, w.tree, w.physiology.contrast, w.patient, w.map, 0, 0, p, direction);
+    return tip_place(locator, w.tree, w.physiology.contrast, w.patient, w.map, {}, p, direction);
   };
   EXPECT_EQ(at(locator.centre(first + 4), in).where, TipPlace::coronary);
   const TipPlace aimed = at(locator.centre(first) - 5e-3 * in, in), away = at(locator.centre(first) - 5e-3 * in, -in);

@@ -1,0 +1,54 @@
+#include "app/session/coupling/artery_loads.h"
+
+#include "app/session/coupling/looks.h"
+
+namespace ostium::app {
+
+using Eigen::Vector3d;
+
+namespace {
+
+constexpr double outside_m = 1e-3;  // beyond its radius, at which a touched wall is still the artery's
+
+/// The balloon's skin as its chart has it: E t = r^2 dp / dr.
+double stretch_N_m(const vascular::BalloonModel& balloon) {
+  return balloon.nominal_m * balloon.nominal_m / 2 / balloon.growth_m_Pa;
+}
+
+void add_balloon(const CouplingModel& model, const vascular::TreatmentState& treatment,
+                 const vascular::LumenMoment& moment, const CouplingState& s, CouplingScratch& x) {
+  const vascular::BalloonModel& balloon = model.treatment.balloons[static_cast<std::size_t>(s.balloon)];
+  const vascular::VesselPath& path = model.treatment.paths[static_cast<std::size_t>(s.branch)];
+  const auto centre = [&](std::size_t k) {
+    return model.vessel.coronaries->map.centre(static_cast<std::size_t>(path.cells[k]), {moment.phase, moment.breath});
+  };
+  for (std::size_t k = 2; k < path.cells.size(); ++k) {
+    const double radius_m = radius_at(balloon, treatment.balloon, seat_m(s), path.s_m[k - 1]);
+    if (radius_m < balloon.refolded_m) continue;
+    const vascular::PressurisedTube tube =
+        vascular::pressurised_tube(radius_m, treatment.balloon.pressure_Pa, stretch_N_m(balloon));
+    if (tube.EI_N_m2 > 0)
+      x.tubes.push_back({path.cells[k], tube, vascular::curvature_of(centre(k - 2), centre(k - 1), centre(k))});
+  }
+}
+
+}  // namespace
+
+void find_artery_loads(const CouplingModel& model, const core::StepReport& report,
+                       const vascular::TreatmentState& treatment, const vascular::BalloonReport& balloon,
+                       const vascular::LumenMoment& moment, const CouplingState& s, CouplingScratch& x) {
+  const std::vector<vascular::FlowCell>& cells = model.physiology.flow.tree.cells;
+  x.load_P_N.assign(cells.size(), Vector3d::Zero());
+  int near = -1;
+  for (const core::Touch& touch : report.touches) {
+    const vascular::CellLocator::Found found = x.locator.nearest(touch.p_W, near_heart_m, near);
+    near = found.cell;
+    if (found.cell < 0) continue;
+    const auto cell = static_cast<std::size_t>(found.cell);
+    if (found.distance_m < cells[cell].healthy_m + outside_m) x.load_P_N[cell] -= touch.normal_W_N + touch.friction_W_N;
+  }
+  x.tubes.clear();
+  if (balloon.touches && s.balloon >= 0 && s.branch >= 0) add_balloon(model, treatment, moment, s, x);
+}
+
+}  // namespace ostium::app

@@ -1,0 +1,127 @@
+/// Arteries that give way, against beams on an elastic bed; a tube under pressure, against its closed form.
+#include "vascular/treatment/artery_bed.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/base/units.h"
+
+namespace ostium::vascular {
+namespace {
+
+using Eigen::Vector3d;
+using units::pi;
+
+constexpr double cell_m = 0.7e-3;
+
+struct Arteries {
+  FlowTree tree;
+  ArteryBedModel model;
+  ArteryBedState state;
+  ArteryBedScratch scratch;
+  std::vector<Vector3d> load_N;
+  std::vector<BedTube> tubes;
+
+  explicit Arteries(const std::vector<PlainBranch>& branches, const ArteryBedLaw& law = {})
+      : tree(plain_tree(branches)), model(make_artery_bed(tree, law)), load_N(tree.cells.size(), Vector3d::Zero()) {
+    state.aside_P.assign(tree.cells.size(), Vector3d::Zero());
+  }
+  void run(double for_s, double dt_s = 8e-3) {
+    for (double t = 0; t < for_s; t += dt_s) step(model, {load_N, tubes}, dt_s, state, scratch);
+  }
+  /// Until it rests.
+  void settle() {
+    for (int i = 0; i < 12; ++i) step(model, {load_N, tubes}, 1e6, state, scratch);
+  }
+};
+
+TEST(ArteryBed, GivesWayAsABeamOnAnElasticBed) {
+  Arteries one({{-1, 300, cell_m, 1.5e-3}});
+  const double k = one.model.law.bed_N_m2, EI = one.model.EI_N_m2[150], P = 0.05;
+  // A single force: deepest by P l / (2 k), and (cos + sin) e^- on either side (Hetenyi 1946).
+  one.load_N[150] = Vector3d(0, P, 0);
+  one.settle();
+  const double l = std::pow(k / (4 * EI), 0.25), deepest = P * l / (2 * k);
+  EXPECT_NEAR(one.state.aside_P[150].y(), deepest, 0.01 * deepest);
+  for (const int away : {3, 6, 12}) {
+    const double x = l * away * cell_m, want = deepest * std::exp(-x) * (std::cos(x) + std::sin(x));
+    EXPECT_NEAR(one.state.aside_P[static_cast<std::size_t>(150 + away)].y(), want, 0.02 * deepest) << away;
+    EXPECT_NEAR(one.state.aside_P[static_cast<std::size_t>(150 - away)].y(), want, 0.02 * deepest) << away;
+  }
+  EXPECT_LT(std::fabs(one.state.aside_P[150].x()) + std::fabs(one.state.aside_P[150].z()), 1e-12);
+  // A load all along: f / k, except at the origin, which stays.
+  for (Vector3d& load : one.load_N) load = Vector3d(0, 0, 5 * cell_m);
+  one.settle();
+  EXPECT_NEAR(one.state.aside_P[150].z(), 5 / k, 1e-3 * 5 / k);
+  EXPECT_EQ(one.state.aside_P[0].z(), 0);
+}
+
+TEST(ArteryBed, ComesBackWithItsTime) {
+  Arteries one({{-1, 300, cell_m, 1.5e-3}});
+  const double k = one.model.law.bed_N_m2, T = one.model.law.yields_s;
+  for (Vector3d& load : one.load_N) load = Vector3d(0, 0, 5 * cell_m);
+  one.run(T, T / 200);
+  EXPECT_NEAR(one.state.aside_P[150].z(), (1 - std::exp(-1)) * 5 / k, 0.01 * 5 / k);
+  one.settle();
+  for (Vector3d& load : one.load_N) load.setZero();
+  one.run(2 * T, T / 200);
+  EXPECT_NEAR(one.state.aside_P[150].z(), std::exp(-2) * 5 / k, 0.01 * 5 / k);
+}
+
+TEST(ArteryBed, ASideBranchGoesWithItsParentAndPullsAsMuchAsItIsPulled) {
+  Arteries tree({{-1, 100, cell_m, 1.5e-3}, {0, 60, cell_m, 1.2e-3}, {0, 60, cell_m, 1e-3}});
+  const std::size_t trunk = 97, side = static_cast<std::size_t>(tree.tree.branches[2].first + 4);
+  tree.load_N[trunk] = Vector3d(0, 0.02, 0);
+  tree.settle();
+  const double there = tree.state.aside_P[side].y();
+  EXPECT_GT(there, 0.2 * tree.state.aside_P[trunk].y());
+  tree.load_N[trunk].setZero();
+  tree.load_N[side] = Vector3d(0, 0.02, 0);
+  tree.settle();
+  EXPECT_NEAR(tree.state.aside_P[trunk].y(), there, 1e-9 * there) << "Maxwell and Betti";
+}
+
+TEST(ArteryBed, ABalloonStraightensABend) {
+  // A wave of curvature: every term of the equation is the same wave.
+  Arteries one({{-1, 400, cell_m, 1.5e-3}});
+  const double k = one.model.law.bed_N_m2, EI = one.model.EI_N_m2[200], q = 2 * pi / (40 * cell_m), y0 = 0.5e-3,
+               B = 5e-5;
+  const auto wave = [&](std::size_t cell) { return std::sin(q * cell_m * static_cast<double>(cell)); };
+  for (int cell = 2; cell < 400; ++cell)
+    one.tubes.push_back({cell, {B, 1e3}, Vector3d(0, -q * q * y0 * wave(static_cast<std::size_t>(cell - 1)), 0)});
+  one.settle();
+  const double share = B * std::pow(q, 4) / ((B + EI) * std::pow(q, 4) + k);
+  for (const std::size_t cell : {190u, 200u, 210u})
+    EXPECT_NEAR(one.state.aside_P[cell].y(), -share * y0 * wave(cell), 0.02 * share * y0) << cell;
+  EXPECT_GT(share, 0.6) << "a test that straightens";
+}
+
+TEST(ArteryBed, NeverGoesFartherThanItMay) {
+  Arteries one({{-1, 100, cell_m, 1.5e-3}});
+  one.load_N[50] = Vector3d(50, 0, 0);
+  one.settle();
+  EXPECT_NEAR(one.state.aside_P[50].norm(), one.model.law.most_aside_m, 1e-9);
+}
+
+TEST(PressurisedTube, WrinklesAndReachesItsLargestMoment) {
+  const double r = 1.5e-3, p = 10 * 101325, stretch = 1e4;
+  const PressurisedTube tube = pressurised_tube(r, p, stretch);
+  EXPECT_NEAR(tube.EI_N_m2, pi * r * r * r * stretch, 1e-12);
+  EXPECT_NEAR(tube.most_Nm, pi * r * r * r * p, 1e-9);
+  const auto at = [&](double x) { return moment_Nm(tube, x * tube.most_Nm / tube.EI_N_m2) / tube.most_Nm; };
+  EXPECT_NEAR(at(0.3), 0.3, 1e-12);
+  EXPECT_NEAR(at(0.5 + 1e-6), 0.5, 1e-4) << "wrinkles begin at half of it, without a jump";
+  EXPECT_NEAR(at(pi / 2), pi / 4, 1e-6) << "half round";
+  EXPECT_LT(at(50), 1);
+  EXPECT_GT(at(50), 0.97);
+  double before = 0;
+  for (double x = 0.05; x < 20; x += 0.05) {
+    EXPECT_GT(at(x), before);
+    before = at(x);
+  }
+  EXPECT_EQ(moment_Nm(pressurised_tube(r, -1, stretch), 10), 0);
+}
+
+}  // namespace
+}  // namespace ostium::vascular
