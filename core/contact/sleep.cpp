@@ -15,6 +15,10 @@ constexpr double longest_way_m = 0.05;  ///< single precision resolves it to 4 n
 /// does, so both together are at most s (1 + 2 sqrt 3) more than the node's motion relative to the reference.
 constexpr double own_moves = 4.5;
 
+/// Where each corner is moved aside by at most s, a leaf and the middle of the reference's box part by at most
+/// s (1 + sqrt 3).
+constexpr double moves_aside = 2.8;
+
 void wake_all(KeptLeaves& kept) {
   for (KeptLeaves::Sleep& one : kept.sleep) one.wakes_at_m = -1;
   kept.way_m = kept.frames = 0;
@@ -64,10 +68,11 @@ SleepWatch::SleepWatch(const Surface& surface, const SurfacePose& pose, const No
     kept.seen[k] = p, kept.reach[k] = nodes.reach[k];
   }
   if (!fresh && kept.nodes == nodes.nodes) {
-    kept.way_m += came + kept.sway_m * std::fabs(a.sway - kept.sway);
+    kept.way_m +=
+        came + kept.sway_m * std::fabs(a.sway - kept.sway) + moves_aside * (surface.aside_way_m - kept.aside_way_m);
     kept.frames += std::fabs(a.share - kept.share);
   }
-  kept.nodes = nodes.nodes, kept.share = a.share, kept.sway = a.sway;
+  kept.nodes = nodes.nodes, kept.share = a.share, kept.sway = a.sway, kept.aside_way_m = surface.aside_way_m;
   now_m_ = static_cast<float>(kept.way_m + moves + own_moves * kept.sway_m * std::fabs(b.sway - a.sway)) + rounding_m;
   frames_ = static_cast<float>(kept.frames + own_moves * std::fabs(b.share - a.share)) + rounding_m;
 }

@@ -72,6 +72,7 @@ struct KeptLeaves {
   V3<double> seen[most_in_block];  ///< m, relative to the reference
   double reach[most_in_block];     ///< m
   double share = 0, sway = 0;      ///< of SurfaceMoment
+  double aside_way_m = 0;          ///< of Surface
 
   KeptLeaves() { sleep.reserve(LeafList::most); }
 };

@@ -43,10 +43,12 @@ void place(const Surface& surface, const Surface::Cluster& c, const SurfaceMomen
     for (int j = 0; j < mixed; ++j)
       row[j] = &surface.corner_frames[surface.row(c, c.stands_still ? 0 : m.frame[j], axis)];
     const float* sway = m.sway != 0 ? &surface.corner_sway[surface.sway_row(c, axis)] : nullptr;
+    const float* aside = surface.yields() ? &surface.corner_aside[surface.sway_row(c, axis)] : nullptr;
     for_packs(0, c.corners, [&]<class T>(T, int i) {
       T sum = splat<T>(m.shift_W[axis]);
       for (int j = 0; j < mixed; ++j) sum = madd(splat<T>(weight[j]), widened<T>(row[j] + i), sum);
       if (sway) sum = madd(splat<T>(m.sway), widened<T>(sway + i), sum);
+      if (aside) sum = sum + widened<T>(aside + i);
       store(to.at(axis) + i, sum);
     });
   }
@@ -123,10 +125,10 @@ SurfacePose::SurfacePose(const Surface& surface)
 void set_motion(const Surface& surface, const SurfaceMotion& motion, SurfacePose& pose) {
   const SurfaceMoment began = pose.before, ended = pose.after;
   pose.before = moment(surface, motion.frame_before, motion.shift_before_W, motion.sway_before);
-  const bool edited = pose.edits != surface.edits;
+  const bool edited = pose.edits != surface.edits || pose.aside_way_m != surface.aside_way_m;
   pose.goes_on = pose.before == ended && !edited;
   pose.begins_again = pose.before == began && !edited;
-  pose.edits = surface.edits;
+  pose.edits = surface.edits, pose.aside_way_m = surface.aside_way_m;
   pose.door_open = motion.door_open;
   pose.after = moment(surface, motion.frame_after, motion.shift_after_W, motion.sway_after);
   ++pose.step;
@@ -164,11 +166,12 @@ Mix mixed(const FrameBounds* frames, int node, const SurfaceMoment& m, const Sur
     const float* first = reinterpret_cast<const float*>(&frames[j].box);
     add(m.weight[j], first, first + 3);
   }
-  if (m.sway != 0) {
-    const Box& box = surface.sway_boxes[node];
+  const auto add_box = [&](double weight, const Box& box) {
     const float low[4] = {box.low[0], box.low[1], box.low[2], 0}, high[4] = {box.high[0], box.high[1], box.high[2], 0};
-    add(m.sway, low, high);
-  }
+    add(weight, low, high);
+  };
+  if (m.sway != 0) add_box(m.sway, surface.sway_boxes[node]);
+  if (surface.yields()) add_box(1, surface.aside_boxes[node]);
   return sum;
 }
 
@@ -250,12 +253,13 @@ bool renew(const Surface& surface, const V3<double>& low, const V3<double>& high
   const SurfaceMoment &a = pose.before, &b = pose.after;
   if (a.interval != b.interval || a.shift_W != b.shift_W) return false;
   if (list.interval == a.interval && list.edits == surface.edits && list.shift_W == a.shift_W &&
-      lies_within(low, high, list, swayed_m(surface, pose, list) + rounding_m))
+      lies_within(low, high, list,
+                  swayed_m(surface, pose, list) + (surface.aside_way_m - list.aside_way_m) + rounding_m))
     return true;
   const V3<double> margin{margin_m, margin_m, margin_m}, shift{a.shift_W[0], a.shift_W[1], a.shift_W[2]};
   list.low = low - margin, list.high = high + margin;
   list.sway_low = std::min(a.sway, b.sway), list.sway_high = std::max(a.sway, b.sway);
-  list.edits = surface.edits, list.shift_W = a.shift_W;
+  list.edits = surface.edits, list.aside_way_m = surface.aside_way_m, list.shift_W = a.shift_W;
   list.leaves.clear();
   ++list.made;
   bool all = true;
@@ -284,7 +288,8 @@ V3<double> middle_of(const Surface& surface, int node, const SurfaceMoment& m) {
   const FrameBounds* frames = surface.bounds_of(surface.nodes[node].cluster, m.interval);
   V3<double> sum{m.shift_W[0], m.shift_W[1], m.shift_W[2]};
   for (int j = 0; j < 4; ++j) sum = madd(m.weight[j], middle(frames[j].box), sum);
-  return m.sway != 0 ? madd(m.sway, middle(surface.sway_boxes[node]), sum) : sum;
+  if (m.sway != 0) sum = madd(m.sway, middle(surface.sway_boxes[node]), sum);
+  return surface.yields() ? sum + middle(surface.aside_boxes[node]) : sum;
 }
 
 double relative_speed(const Surface& surface, int interval, int cluster, int other) {

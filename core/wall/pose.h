@@ -59,8 +59,9 @@ struct SurfacePose {
   std::vector<ClusterPose> clusters;
   std::vector<long> listed;  ///< per cluster: last query that listed it
   long step = 0, query = 0, edits = -1;
-  long stands_since = 0;  ///< the step since which parts that stand still in the cycle have not moved
-  int posed = 0;          ///< clusters whose pose was computed since this was set to 0
+  double aside_way_m = 0;  ///< of the surface, as `edits` is
+  long stands_since = 0;   ///< the step since which parts that stand still in the cycle have not moved
+  int posed = 0;           ///< clusters whose pose was computed since this was set to 0
   bool door_open = false;
   bool goes_on = false;       ///< this step begins where the last one ended, on the same surface
   bool begins_again = false;  ///< ... or where the last one began: a part of it is tried
@@ -106,7 +107,7 @@ struct LeafList {
   V3<double> low, high;  ///< the box that was searched; its leaves are all here
   int interval = -1;     ///< -1: nothing is kept
   long edits = 0;
-  double sway_low = 0, sway_high = 0;
+  double aside_way_m = 0, sway_low = 0, sway_high = 0;
   Eigen::Vector3d shift_W = Eigen::Vector3d::Zero();
   std::vector<Leaf> leaves;
 
@@ -115,7 +116,8 @@ struct LeafList {
   LeafList() { leaves.reserve(most); }
 };
 
-/// The boxes of the tree at both ends of a step: those of an interval, extended by how far their corners may sway.
+/// The boxes of the tree at both ends of a step: those of an interval, extended by how far their corners may sway and
+/// lie aside.
 class StepBoxes {
  public:
   StepBoxes(const Surface& surface, const SurfacePose& pose)
@@ -125,6 +127,10 @@ class StepBoxes {
   }
   BoxEnds of(int node, const Box& over_interval) const {
     BoxEnds box = BoxEnds::of(over_interval);
+    if (surface_.yields()) {
+      const BoxEnds by = BoxEnds::of(surface_.aside_boxes[node]);
+      box.low = _mm_add_ps(box.low, by.low), box.high = _mm_add_ps(box.high, by.high);
+    }
     if (!sways_) return box;
     const auto [low_by, high_by] = BoxEnds::of(surface_.sway_boxes[node]);
     const __m128 down = _mm_cmplt_ps(low_by, _mm_setzero_ps()), up = _mm_cmpgt_ps(high_by, _mm_setzero_ps());

@@ -39,9 +39,13 @@ void SurfaceEditor::place(int vertex, int frame, const Eigen::Vector3d& p_W) {
     const Surface::Cluster& c = surface_.clusters[cluster_of_[corner]];
     for (int axis = 0; axis < 3; ++axis)
       surface_.corner_frames[surface_.row(c, frame, axis) + corner - c.first_corner] = static_cast<float>(p_W[axis]);
-    for (int n = leaf_of_[cluster_of_[corner]]; n >= 0 && !changed_[n]; n = parent_[n])
-      changed_[n] = 1, pending_.push_back(n);
+    mark(corner);
   }
+}
+
+void SurfaceEditor::mark(int corner) {
+  for (int n = leaf_of_[cluster_of_[corner]]; n >= 0 && !changed_[n]; n = parent_[n])
+    changed_[n] = 1, pending_.push_back(n);
 }
 
 void SurfaceEditor::refit() {
@@ -60,6 +64,40 @@ void SurfaceEditor::refit() {
   }
   if (!pending_.empty()) ++surface_.edits;
   pending_.clear();
+}
+
+void SurfaceEditor::let_yield() {
+  surface_.corner_aside.assign(std::size_t{3} * surface_.corners, 0);
+  surface_.aside_boxes.assign(surface_.nodes.size(), Box{});
+}
+
+void SurfaceEditor::put_aside(int vertex, const Eigen::Vector3d& by_W) {
+  for (int k = first_corner_[vertex]; k < first_corner_[vertex + 1]; ++k) {
+    const int corner = corners_[k];
+    const Surface::Cluster& c = surface_.clusters[cluster_of_[corner]];
+    double moved2 = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      float& was = surface_.corner_aside[surface_.sway_row(c, axis) + corner - c.first_corner];
+      const auto is = static_cast<float>(by_W[axis]);
+      moved2 += double{is - was} * double{is - was};
+      was = is;
+    }
+    moved_aside_m_ = std::max(moved_aside_m_, std::sqrt(moved2));
+    mark(corner);
+  }
+}
+
+void SurfaceEditor::refit_aside() {
+  std::sort(pending_.begin(), pending_.end(), std::greater<>());
+  for (int n : pending_) {
+    changed_[n] = 0;
+    const int cluster = surface_.nodes[n].cluster;
+    surface_.aside_boxes[n] = cluster >= 0 ? box_of_corners(surface_, surface_.corner_aside, surface_.clusters[cluster])
+                                           : around_children(surface_, surface_.aside_boxes.data(), n);
+  }
+  pending_.clear();
+  surface_.aside_way_m += moved_aside_m_;
+  moved_aside_m_ = 0;
 }
 
 std::array<double, 4> frame_weights(double x) {

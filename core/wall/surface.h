@@ -7,6 +7,7 @@
 /// interval between two frames (it encloses the spline's Bezier points), so boxes are made once and never refitted;
 /// positions are computed only for clusters near an instrument. A slow motion with its own rhythm, besides the cycle,
 /// is a second set of displacements (`sway`), scaled by one number; each box has a second one for these displacements.
+/// Walls that give way lie aside by a third set, which its owner changes between steps by a little at a time.
 #include <Eigen/Core>
 #include <array>
 #include <vector>
@@ -75,6 +76,9 @@ struct Surface {
   std::vector<Box> sway_boxes;               ///< [node], of displacements; empty: it does not sway
   /// [cluster][frame - 1 to frames + 1]: those of an interval are side by side. For clusters that move in the cycle.
   std::vector<FrameBounds, OnHugePages<FrameBounds>> frame_bounds;
+  std::vector<float> corner_aside;  ///< as corner_sway, m; empty: it lies as described
+  std::vector<Box> aside_boxes;     ///< [node], of these; empty as they are
+  double aside_way_m = 0;           ///< how far any corner was moved aside so far, all moves summed up, at most
   double stiffness_N_m2 = 0, friction = 0, door_passes_m = 0;
   int largest_cluster = 0;  ///< in corners
   long edits = 0;           ///< number of changes by a SurfaceEditor
@@ -83,11 +87,12 @@ struct Surface {
   std::size_t row(const Cluster& c, int frame, int axis) const {
     return std::size_t{3} * frames * c.first_corner + std::size_t{1} * (3 * frame + axis) * c.corners;
   }
-  /// The same in `corner_sway`.
+  /// The same in `corner_sway` and `corner_aside`.
   std::size_t sway_row(const Cluster& c, int axis) const {
     return std::size_t{3} * c.first_corner + std::size_t{1} * axis * c.corners;
   }
   bool sways() const { return !corner_sway.empty(); }
+  bool yields() const { return !corner_aside.empty(); }
   /// Bounds in the four frames from which positions of an interval are made.
   const FrameBounds* bounds_of(int cluster, int interval) const {
     return &frame_bounds[std::size_t{1} * cluster * (frames + 3) + interval];
@@ -98,8 +103,9 @@ struct Surface {
 /// length (`sway` too), or a number is not finite or negative.
 Surface make_surface(const SurfaceDescription& description);
 
-/// Moves vertices of a surface for the whole cycle and refits the boxes, for walls that were opened. Triangles,
-/// clusters, normals, curvatures and sway stay. The result depends only on the positions, not on the order of edits.
+/// Moves vertices of a surface for the whole cycle and refits the boxes, for walls that were opened or give way.
+/// Triangles, clusters, normals, curvatures and sway stay. The result depends only on the positions, not on the order
+/// of edits.
 class SurfaceEditor {
  public:
   /// Keeps a reference. `description`: what the surface was made from.
@@ -109,13 +115,23 @@ class SurfaceEditor {
   void place(int vertex, int frame, const Eigen::Vector3d& p_W);
   void refit();
 
+  /// Makes room for a wall that gives way. Call once, before the first put_aside.
+  void let_yield();
+  /// How far one vertex lies aside in all frames; call `refit_aside` after the last.
+  void put_aside(int vertex, const Eigen::Vector3d& by_W);
+  void refit_aside();
+
  private:
+  /// Marks the nodes around a corner, up to the root.
+  void mark(int corner);
+
   Surface& surface_;
   std::vector<int> first_corner_, corners_;  ///< of each vertex: corners_[first_corner_[v], first_corner_[v + 1])
   std::vector<int> cluster_of_;              ///< (#corners)
   std::vector<int> leaf_of_, parent_;        ///< node of each cluster; parent of each node, -1 for the root
   std::vector<char> changed_;                ///< (#nodes)
   std::vector<int> pending_;                 ///< nodes whose box is to be refitted, children before parents once sorted
+  double moved_aside_m_ = 0;                 ///< since refit_aside: any corner, at most
 };
 
 /// Position of a surface in its cycle at both ends of a step, in frames: any numbers, taken modulo the number of

@@ -68,10 +68,10 @@ void bound_frames(int cluster, Surface& surface) {
   to[-1] = to[n - 1], to[n] = to[0], to[n + 1] = to[1 % n];
 }
 
-Box leaf_sway(const Surface& surface, const Surface::Cluster& c) {
+Box box_of_corners(const Surface& surface, const std::vector<float>& displacements, const Surface::Cluster& c) {
   Box box;
   for (int axis = 0; axis < 3; ++axis) {
-    const float* row = &surface.corner_sway[surface.sway_row(c, axis)];
+    const float* row = &displacements[surface.sway_row(c, axis)];
     const auto [low, high] = std::minmax_element(row, row + c.corners);
     box.low[axis] = *low, box.high[axis] = *high;
   }

@@ -187,8 +187,8 @@ class Builder {
     out_.sway_boxes.resize(nodes);
     for (int n = nodes - 1; n >= 0; --n) {
       const int cluster = out_.nodes[n].cluster;
-      out_.sway_boxes[n] =
-          cluster >= 0 ? leaf_sway(out_, out_.clusters[cluster]) : around_children(out_, out_.sway_boxes.data(), n);
+      out_.sway_boxes[n] = cluster >= 0 ? box_of_corners(out_, out_.corner_sway, out_.clusters[cluster])
+                                        : around_children(out_, out_.sway_boxes.data(), n);
     }
   }
 

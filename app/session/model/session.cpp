@@ -298,7 +298,7 @@ void give_way(const SessionModel& model, const SessionReport& report, SessionSta
   find_artery_loads(coupling_of(model), report.rods, state.treatment, report.treatment.balloon, moment(model, state),
                     state.coupling, x);
   step(*model.bed, {x.load_P_N, x.tubes}, look_every * model.step_s(), state.bed, x.bed);
-  if (state.rods.step % aside_every == 0) follow_aside(state.bed.aside_P, state.wall_aside_P);
+  follow_aside(state.bed.aside_P, state.wall_aside_P);
 }
 
 /// Advances balloon and stent, then blood and contrast, with the rods' current positions.

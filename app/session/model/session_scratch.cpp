@@ -16,7 +16,7 @@ SessionScratch::SessionScratch(const SessionModel& model, WallCopy copy) : now(m
 void SessionScratch::own_the_wall(const SessionModel& model) {
   const auto own = std::make_shared<core::Surface>(*now.surfaces[0]);
   now.surfaces = {own};
-  wall.emplace(*model.vessel, *own);
+  wall.emplace(*model.vessel, *own, model.bed.has_value());
 }
 
 void SessionScratch::set_wall(const SessionModel& model, const std::vector<double>& wall_m,

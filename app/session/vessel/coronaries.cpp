@@ -8,15 +8,24 @@ namespace ostium::app {
 
 namespace {
 
-/// Calls take(cell, vertex) for each vertex of the lumen and each cell whose radius it follows.
+/// The vertices of each cell, of those that cells_of(vertex, take) gives them to.
+template <class CellsOf>
+CellVertices vertices_of(std::size_t cells, std::size_t vertices, CellsOf&& cells_of) {
+  CellVertices out{.first = std::vector<int>(cells + 1, 0), .vertices = {}};
+  for (std::size_t v = 0; v < vertices; ++v) cells_of(v, [&](int cell) { ++out.first[cell + 1]; });
+  for (std::size_t c = 1; c <= cells; ++c) out.first[c] += out.first[c - 1];
+  out.vertices.resize(static_cast<std::size_t>(out.first.back()));
+  std::vector<int> next(out.first.begin(), out.first.end() - 1);
+  for (std::size_t v = 0; v < vertices; ++v)
+    cells_of(v, [&](int cell) { out.vertices[static_cast<std::size_t>(next[cell]++)] = static_cast<int>(v); });
+  return out;
+}
+
 template <class Take>
-void for_each_follower(const vascular::LumenMap& map, Take&& take) {
-  for (std::size_t v = 0; v < map.sources.size(); ++v) {
-    const vascular::VertexSource& from = map.sources[v].first;
-    if (from.part != vascular::VertexSource::coronary) continue;
-    take(static_cast<std::size_t>(from.below), static_cast<int>(v));
-    if (from.above != from.below) take(static_cast<std::size_t>(from.above), static_cast<int>(v));
-  }
+void cells_of(const vascular::VertexSource& from, Take&& take) {
+  if (from.part != vascular::VertexSource::coronary) return;
+  take(from.below);
+  if (from.above != from.below) take(from.above);
 }
 
 }  // namespace
@@ -42,13 +51,13 @@ std::unique_ptr<const Coronaries> make_coronaries(std::shared_ptr<const vascular
   vascular::HeartState& heart = out->at_rest.heart;
   heart.phase = heart.since_R_s = 0;  // at_rest ends within a step of the R wave
   heart.time_s = 0, heart.beats = 0, heart.draws = 0;
-  out->first_vertex.assign(out->tree().cells.size() + 1, 0);
-  for_each_follower(out->map, [&](std::size_t cell, int) { ++out->first_vertex[cell + 1]; });
-  for (std::size_t c = 1; c < out->first_vertex.size(); ++c) out->first_vertex[c] += out->first_vertex[c - 1];
-  out->vertices.resize(static_cast<std::size_t>(out->first_vertex.back()));
-  std::vector<int> next(out->first_vertex.begin(), out->first_vertex.end() - 1);
-  for_each_follower(out->map,
-                    [&](std::size_t cell, int v) { out->vertices[static_cast<std::size_t>(next[cell]++)] = v; });
+  const std::vector<vascular::LumenMap::Vertex>& sources = out->map.sources;
+  out->opened_with = vertices_of(out->tree().cells.size(), sources.size(),
+                                 [&](std::size_t v, auto&& take) { cells_of(sources[v].first, take); });
+  out->aside_with = vertices_of(out->tree().cells.size(), sources.size(), [&](std::size_t v, auto&& take) {
+    cells_of(sources[v].first, take);
+    if (sources[v].second_share > 0) cells_of(sources[v].second, take);
+  });
   return out;
 }
 

@@ -1,9 +1,20 @@
 #pragma once
 /// A case's coronary arteries as contrast, balloons and stents need them. Const once made; runs share them.
+#include <span>
+
 #include "app/angiography/textbook_treatment.h"
 #include "vascular/treatment/stent_ties.h"
 
 namespace ostium::app {
+
+/// Vertices of the lumen that belong to a cell.
+struct CellVertices {
+  std::vector<int> first, vertices;  ///< vertices[first[cell], first[cell + 1])
+  std::span<const int> of(std::size_t cell) const {
+    return std::span(vertices).subspan(static_cast<std::size_t>(first[cell]),
+                                       static_cast<std::size_t>(first[cell + 1] - first[cell]));
+  }
+};
 
 struct Coronaries {
   std::shared_ptr<const vascular::Patient> patient;
@@ -16,8 +27,8 @@ struct Coronaries {
   /// In the first lesion's artery: the cell beyond its ostium and the TIMI landmark, or -1.
   int ostium_cell = -1, landmark_cell = -1;
   vascular::PhysiologyState at_rest;  ///< the circulation once pressure and flow repeat from beat to beat
-  /// Vertices of the lumen that follow a cell's radius: vertices[first_vertex[c], first_vertex[c + 1]).
-  std::vector<int> first_vertex, vertices;
+  CellVertices opened_with;           ///< those that follow a cell's radius,
+  CellVertices aside_with;            ///< and those that go aside with it
 
   const vascular::FlowTree& tree() const { return physiology.flow.tree; }
 };

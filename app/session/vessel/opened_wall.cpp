@@ -49,47 +49,50 @@ bool is_aside(const std::vector<Eigen::Vector3d>& wall_aside_P) {
   return std::any_of(wall_aside_P.begin(), wall_aside_P.end(), [](const Eigen::Vector3d& p) { return !p.isZero(0); });
 }
 
-OpenedWall::OpenedWall(const Vessel& vessel, core::Surface& surface)
+OpenedWall::OpenedWall(const Vessel& vessel, core::Surface& surface, bool yields)
     : coronaries_(*vessel.coronaries),
       editor_(vessel.wall, surface),
       now_m_(untreated(vessel.coronaries->tree())),
-      is_moved_(coronaries_.map.sources.size(), 0),
+      is_listed_(coronaries_.map.sources.size(), 0),
       placed_(3, static_cast<Eigen::Index>(coronaries_.map.sources.size())) {
-  moved_.reserve(is_moved_.size());
+  listed_.reserve(is_listed_.size());
+  if (!yields) return;
+  editor_.let_yield();
+  now_aside_P_.assign(now_m_.size(), Eigen::Vector3d::Zero());
 }
 
-void OpenedWall::list_opened(const std::vector<double>& wall_m) {
-  for (std::size_t c = 0; c < now_m_.size(); ++c) {
-    if (wall_m[c] == now_m_[c]) continue;
-    for (int k = coronaries_.first_vertex[c]; k < coronaries_.first_vertex[c + 1]; ++k)
-      if (const int v = coronaries_.vertices[k]; !is_moved_[v]) is_moved_[v] = 1, moved_.push_back(v);
-  }
+void OpenedWall::list(const CellVertices& of_cells, std::size_t cell) {
+  for (const int v : of_cells.of(cell))
+    if (!is_listed_[v]) is_listed_[v] = 1, listed_.push_back(v);
+}
+
+void OpenedWall::open(const std::vector<double>& wall_m) {
+  for (std::size_t c = 0; c < now_m_.size(); ++c)
+    if (wall_m[c] != now_m_[c]) list(coronaries_.opened_with, c);
   now_m_ = wall_m;
+  for (int f = 0; f < vascular::beat_frames; ++f) {
+    coronaries_.shape->at(listed_, now_m_, {.phase = static_cast<double>(f) / vascular::beat_frames}, placed_);
+    for (const int v : listed_) editor_.place(v, f, placed_.col(v).cast<double>());
+  }
+  editor_.refit();
 }
 
-void OpenedWall::list_aside(const std::vector<Eigen::Vector3d>& wall_aside_P) {
-  vertex_aside_P_.resize(is_moved_.size(), Eigen::Vector3d::Zero());
+void OpenedWall::move_aside(const std::vector<Eigen::Vector3d>& wall_aside_P) {
+  for (std::size_t c = 0; c < now_aside_P_.size(); ++c)
+    if (wall_aside_P[c] != now_aside_P_[c]) list(coronaries_.aside_with, c);
   now_aside_P_ = wall_aside_P;
-  for (std::size_t v = 0; v < is_moved_.size(); ++v) {
-    const Eigen::Vector3d aside = coronaries_.shape->aside(v, {.aside_P = now_aside_P_});
-    if (aside == vertex_aside_P_[v]) continue;
-    vertex_aside_P_[v] = aside;
-    if (!is_moved_[v]) is_moved_[v] = 1, moved_.push_back(static_cast<int>(v));
-  }
+  for (const int v : listed_)
+    editor_.put_aside(v, coronaries_.shape->aside(static_cast<std::size_t>(v), {.aside_P = now_aside_P_}));
+  editor_.refit_aside();
 }
 
 void OpenedWall::set(const std::vector<double>& wall_m, const std::vector<Eigen::Vector3d>& wall_aside_P) {
-  if (wall_m != now_m_) list_opened(wall_m);
-  if (wall_aside_P != now_aside_P_) list_aside(wall_aside_P);
-  if (moved_.empty()) return;
-  for (int f = 0; f < vascular::beat_frames; ++f) {
-    coronaries_.shape->at(moved_, now_m_,
-                          {.phase = static_cast<double>(f) / vascular::beat_frames, .aside_P = now_aside_P_}, placed_);
-    for (const int v : moved_) editor_.place(v, f, placed_.col(v).cast<double>());
-  }
-  for (const int v : moved_) is_moved_[v] = 0;
-  moved_.clear();
-  editor_.refit();
+  const auto forget = [&] {
+    for (const int v : listed_) is_listed_[v] = 0;
+    listed_.clear();
+  };
+  if (wall_m != now_m_) open(wall_m), forget();
+  if (wall_aside_P != now_aside_P_) move_aside(wall_aside_P), forget();
 }
 
 Eigen::Vector3d wall_vertex(const Vessel& vessel, const std::vector<double>& wall_m, int vertex,

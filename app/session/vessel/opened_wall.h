@@ -4,7 +4,7 @@
 /// The wall is a function of SessionState::wall_m and wall_aside_P alone, the radius of contact's wall in each cell and
 /// how far it lies aside. It follows the lumen in small moves, one cell at a time, because each move updates the cell's
 /// vertices in all frames of the beat: opening a vessel is spread over many steps, and an unchanged one costs nothing.
-/// Arteries that give way are followed by all cells at once, now and then: a wall with steps in it would be none.
+/// Where arteries give way, all cells follow at once, by a little.
 #include "app/session/vessel/vessel.h"
 
 namespace ostium::app {
@@ -12,9 +12,8 @@ namespace ostium::app {
 inline constexpr double wall_follows_m = 0.02e-3;   ///< allowed lag behind the lumen where there is plaque,
 inline constexpr double wall_follows_share = 0.03;  ///< and elsewhere, relative to the radius
 inline constexpr int wall_cells_a_step = 1;         ///< cells moved per step, at most
-inline constexpr int aside_every = 32;              ///< steps, a multiple of look_every
-inline constexpr double aside_follows_m = 5e-6;     ///< allowed lag of what lies aside,
-inline constexpr double aside_step_m = 20e-6;       ///< and how far it follows at once, at most: a wall may come back
+inline constexpr double aside_follows_m = 1e-6;     ///< allowed lag behind an artery that gives way, and how far the
+inline constexpr double aside_step_m = 5e-6;        ///< wall follows at once, at most: it may come back at instruments
 
 /// Makes contact's radii follow the lumen's, starting at `cursor`, which it advances. All (#cells).
 void follow_lumen(const vascular::FlowTree& tree, const std::vector<double>& radius_m, int& cursor,
@@ -30,21 +29,23 @@ bool is_aside(const std::vector<Eigen::Vector3d>& wall_aside_P);
 class OpenedWall {
  public:
   /// Keeps references; `surface` is a copy of the vessel's own, and is modified.
-  OpenedWall(const Vessel& vessel, core::Surface& surface);
+  /// `yields`: arteries give way.
+  OpenedWall(const Vessel& vessel, core::Surface& surface, bool yields);
   /// Updates the surface.
   void set(const std::vector<double>& wall_m, const std::vector<Eigen::Vector3d>& wall_aside_P);
 
  private:
-  void list_opened(const std::vector<double>& wall_m);
-  void list_aside(const std::vector<Eigen::Vector3d>& wall_aside_P);
+  void open(const std::vector<double>& wall_m);
+  void move_aside(const std::vector<Eigen::Vector3d>& wall_aside_P);
+  void list(const CellVertices& of_cells, std::size_t cell);
 
   const Coronaries& coronaries_;
   core::SurfaceEditor editor_;
   std::vector<double> now_m_;
-  std::vector<Eigen::Vector3d> now_aside_P_, vertex_aside_P_;  ///< of cells, of vertices
-  std::vector<int> moved_;                                     ///< vertices
-  std::vector<char> is_moved_;                                 ///< (#vertices)
-  Eigen::Matrix3Xf placed_;                                    ///< (3, #vertices)
+  std::vector<Eigen::Vector3d> now_aside_P_;
+  std::vector<int> listed_;      ///< vertices to be moved
+  std::vector<char> is_listed_;  ///< (#vertices)
+  Eigen::Matrix3Xf placed_;      ///< (3, #vertices)
 };
 
 /// A vertex of that wall, as contact has it but in double precision, for penetration checks.
