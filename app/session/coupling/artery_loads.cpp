@@ -1,6 +1,7 @@
 #include "app/session/coupling/artery_loads.h"
 
 #include "app/session/coupling/looks.h"
+#include "app/session/vessel/opened_wall.h"
 
 namespace ostium::app {
 
@@ -15,12 +16,12 @@ double stretch_N_m(const vascular::BalloonModel& balloon) {
   return balloon.nominal_m * balloon.nominal_m / 2 / balloon.growth_m_Pa;
 }
 
-void add_balloon(const CouplingModel& model, const vascular::TreatmentState& treatment,
-                 const vascular::LumenMoment& moment, const CouplingState& s, CouplingScratch& x) {
+void add_balloon(const CouplingModel& model, const vascular::TreatmentState& treatment, double phase,
+                 const CouplingState& s, CouplingScratch& x) {
   const vascular::BalloonModel& balloon = model.treatment.balloons[static_cast<std::size_t>(s.balloon)];
   const vascular::VesselPath& path = model.treatment.paths[static_cast<std::size_t>(s.branch)];
   const auto centre = [&](std::size_t k) {
-    return model.vessel.coronaries->map.centre(static_cast<std::size_t>(path.cells[k]), {moment.phase, moment.breath});
+    return model.vessel.coronaries->map.centre(static_cast<std::size_t>(path.cells[k]), {.phase = phase});
   };
   for (std::size_t k = 2; k < path.cells.size(); ++k) {
     const double radius_m = radius_at(balloon, treatment.balloon, seat_m(s), path.s_m[k - 1]);
@@ -35,8 +36,8 @@ void add_balloon(const CouplingModel& model, const vascular::TreatmentState& tre
 }  // namespace
 
 void find_artery_loads(const CouplingModel& model, const core::StepReport& report,
-                       const vascular::TreatmentState& treatment, const vascular::BalloonReport& balloon,
-                       const vascular::LumenMoment& moment, const CouplingState& s, CouplingScratch& x) {
+                       const vascular::TreatmentState& treatment, const vascular::BalloonReport& balloon, double phase,
+                       const CouplingState& s, CouplingScratch& x) {
   const std::vector<vascular::FlowCell>& cells = model.physiology.flow.tree.cells;
   x.load_P_N.assign(cells.size(), Vector3d::Zero());
   int near = -1;
@@ -48,7 +49,13 @@ void find_artery_loads(const CouplingModel& model, const core::StepReport& repor
     if (found.distance_m < cells[cell].healthy_m + outside_m) x.load_P_N[cell] -= touch.normal_W_N + touch.friction_W_N;
   }
   x.tubes.clear();
-  if (balloon.touches && s.balloon >= 0 && s.branch >= 0) add_balloon(model, treatment, moment, s, x);
+  if (balloon.touches && s.balloon >= 0 && s.branch >= 0) add_balloon(model, treatment, phase, s, x);
+}
+
+void give_way(const vascular::ArteryBedModel& model, double dt_s, CouplingScratch& x, vascular::ArteryBedState& bed,
+              std::vector<Vector3d>& wall_aside_P) {
+  step(model, {x.load_P_N, x.tubes}, dt_s, bed, x.bed);
+  follow_aside(bed.aside_P, wall_aside_P);
 }
 
 }  // namespace ostium::app

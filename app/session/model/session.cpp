@@ -293,14 +293,6 @@ void tie_stents(const SessionModel& model, SessionState& state) {
   }
 }
 
-/// Arteries that give way follow what presses on them and straightens them; contact's wall follows the arteries.
-void give_way(const SessionModel& model, const SessionReport& report, SessionState& state, CouplingScratch& x) {
-  find_artery_loads(coupling_of(model), report.rods, state.treatment, report.treatment.balloon, moment(model, state),
-                    state.coupling, x);
-  step(*model.bed, {x.load_P_N, x.tubes}, look_every * model.step_s(), state.bed, x.bed);
-  follow_aside(state.bed.aside_P, state.wall_aside_P);
-}
-
 /// Advances balloon and stent, then blood and contrast, with the rods' current positions.
 void treat(const SessionModel& model, const SessionInputs& inputs, bool R_wave, SessionState& state, SessionScratch& x,
            SessionReport& report) {
@@ -315,7 +307,11 @@ void treat(const SessionModel& model, const SessionInputs& inputs, bool R_wave, 
       step(model.treatment, treatment_inputs(coupling, inputs.delivery, state.coupling), model.step_s(),
            state.treatment, {model.physiology.flow, state.blood, x.physiology_inputs.occupied_m}, x.treatment);
   state.coupling.blocked = report.treatment.blocked;
-  if (model.bed && state.rods.step % look_every == 0) give_way(model, report, state, *x.coupling);
+  if (model.bed && state.rods.step % look_every == 0) {
+    find_artery_loads(coupling, report.rods, state.treatment, report.treatment.balloon, state.blood.heart.phase,
+                      state.coupling, *x.coupling);
+    give_way(*model.bed, look_every * model.step_s(), *x.coupling, state.bed, state.wall_aside_P);
+  }
   tie_stents(model, state);
   hold_balloon(coupling, state.rods, report.treatment.balloon, moment(model, state), state.coupling);
   set_physiology_inputs(coupling, inputs.delivery, state.coupling, x.physiology_inputs);
@@ -358,10 +354,6 @@ void report_tools(const SessionModel& model, const SessionState& state, SessionR
 
 double breath(const SessionModel& model, const SessionState& state) {
   return model.breaths_1_min > 0 ? vascular::breath_depth(state.breath.phase) : 0;
-}
-
-vascular::LumenMoment moment(const SessionModel& model, const SessionState& state) {
-  return {state.blood.heart.phase, breath(model, state), state.wall_aside_P};
 }
 
 void step(const SessionModel& model, const SessionInputs& inputs, SessionState& state, SessionScratch& scratch,

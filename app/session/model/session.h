@@ -227,6 +227,8 @@ double waist(const vascular::BalloonModel& model, const vascular::BalloonState& 
 double breath(const SessionModel& model, const SessionState& state);
 
 /// How the heart's vessels lie at the end of a step.
-vascular::LumenMoment moment(const SessionModel& model, const SessionState& state);
+inline vascular::LumenMoment moment(const SessionModel& model, const SessionState& state) {
+  return {state.blood.heart.phase, breath(model, state), state.wall_aside_P};
+}
 
 }  // namespace ostium::app

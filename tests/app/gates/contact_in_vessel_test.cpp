@@ -97,10 +97,65 @@ core::SurfaceDescription swaying(const gates::TestVessel& vessel) {
   return d;
 }
 
+/// A wall that gives way: every vertex lies aside as a smooth function of its place says, times `far_m`.
+class Yielding {
+ public:
+  Yielding(const core::SurfaceDescription& d, core::Surface& surface) : d_(d), editor_(d, surface) {
+    editor_.let_yield();
+  }
+  Vector3d aside(int v, double far_m) const {
+    const Vector3d& p = d_.frames[0][static_cast<std::size_t>(v)];
+    return far_m * Vector3d(std::sin(300 * p.y()), std::sin(200 * p.z()), std::cos(250 * p.x()));
+  }
+  void move(double far_m) {
+    for (int v = 0; v < static_cast<int>(d_.frames[0].size()); ++v) editor_.put_aside(v, aside(v, far_m));
+    editor_.refit_aside();
+  }
+
+ private:
+  const core::SurfaceDescription& d_;
+  core::SurfaceEditor editor_;
+};
+
+/// Every corner is where it was, and aside of it, and is found there; back at its place, the wall is what it was.
+TEST(Surface, WhatLiesAsideIsFoundAtAnyMoment) {
+  const gates::TestVessel vessel = gates::test_vessel();
+  const core::SurfaceDescription d = swaying(vessel);
+  const core::Surface before = make_surface(d);
+  core::Surface surface = before;
+  Yielding wall(d, surface);
+  core::SurfacePose pose(surface), pose_before(before);
+  std::vector<int> found, found_before;
+  found.reserve(surface.clusters.size()), found_before.reserve(surface.clusters.size());
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> u(0, 1);
+  for (int n = 0; n < 100; ++n) {
+    const double far_m = n % 3 ? 2e-3 * u(random) : 0, frame = 24 * u(random), sway = u(random);
+    wall.move(far_m);
+    const core::SurfaceMotion motion = small_step(n, frame, sway);
+    set_motion(surface, motion, pose);
+    const int v = d.triangles[random() % d.triangles.size()][0];
+    const Vector3d p = vertex_at(d, v, motion.frame_after, motion.sway_after) + wall.aside(v, far_m);
+    const core::V3<double> q = core::from_eigen(p), pad{1e-6, 1e-6, 1e-6};
+    find_clusters(surface, q - pad, q + pad, pose, found);
+    EXPECT_LT(nearest_found_m(surface, found, pose, p), 1e-6) << n;
+    if (far_m != 0) continue;
+    set_motion(before, motion, pose_before);
+    find_clusters(before, q - pad, q + pad, pose_before, found_before);
+    ASSERT_EQ(found, found_before);
+    for (int c : found) {
+      const core::ClusterPose &a = pose_of(surface, c, pose), &b = pose_of(before, c, pose_before);
+      for (int i = 0; i < a.after.size(); ++i) ASSERT_EQ(Vector3d(a.after[i]), Vector3d(b.after[i]));
+    }
+  }
+}
+
 /// What is known of a cluster without computing its corners holds for each of them.
 TEST(Surface, ARoughPoseHoldsTheExactOne) {
   const gates::TestVessel vessel = gates::test_vessel();
-  const core::Surface surface = make_surface(swaying(vessel));
+  const core::SurfaceDescription d = swaying(vessel);
+  core::Surface surface = make_surface(d);
+  Yielding wall(d, surface);
   core::SurfacePose pose(surface);
   std::mt19937 random(5);
   std::uniform_real_distribution<double> u(0, 1);
@@ -108,6 +163,7 @@ TEST(Surface, ARoughPoseHoldsTheExactOne) {
   double loosest_m = 0;
   for (int n = 0; n < 40; ++n) {
     const double frame = 24 * u(random);  // every fourth step goes over into the next interval
+    if (n >= 20) wall.move(1e-3 * u(random));
     set_motion(surface, small_step(n, n % 4 ? frame : std::ceil(frame) - 1.0 / 120, u(random)), pose);
     for (int node = static_cast<int>(random() % 7); node < static_cast<int>(surface.nodes.size()); node += 7) {
       const int cluster = surface.nodes[node].cluster;
@@ -134,6 +190,7 @@ TEST(Surface, AKeptListHasWhatTheTreeFinds) {
   const core::SurfaceDescription d = swaying(vessel);
   core::Surface surface = make_surface(d);
   core::SurfaceEditor editor(d, surface);
+  Yielding wall(d, surface);
   core::SurfacePose pose(surface);
   core::LeafList list;
   std::vector<int> kept, found;
@@ -148,6 +205,8 @@ TEST(Surface, AKeptListHasWhatTheTreeFinds) {
     Vector3d p = vertex_at(d, v, frame, walk % 2 ? sway : 0);
     for (int n = 0; n < 100; ++n, frame += 1.0 / 60) {
       p += 0.1e-3 * Vector3d(u(random) - 0.4, u(random) - 0.5, u(random) - 0.5);
+      if (walk % 3 == 0 && n % 10 == 0) wall.move(1e-3 * u(random) / (1 + walk % 2));
+      if (walk % 3 == 1) wall.move(2e-6 * n);
       if (n == 50) editor.place(v, 3, d.frames[3][v] + Vector3d(1e-3, 0, 0)), editor.refit();
       set_motion(surface, small_step(walk, frame, sway + 1e-3 * n), pose);
       const core::V3<double> q = core::from_eigen(p), pad{2e-3, 2e-3, 2e-3};
@@ -249,6 +308,32 @@ TEST(Contact, WhatSleepsIsNotMet) {
   }
   EXPECT_GT(posed, 1000);
   EXPECT_LT(posed, posed_awake);
+}
+
+/// Also where the wall gives way while they sleep.
+TEST(Contact, WhatSleepsInAWallThatGivesWayIsNotMet) {
+  const gates::TestVessel vessel = gates::test_vessel();
+  gates::Rehearsal a(vessel, false), b(vessel, false);
+  const auto surface = std::make_shared<core::Surface>(*a.model.surfaces[0]);
+  Yielding wall(vessel.wall, *surface);
+  for (gates::Rehearsal* run : {&a, &b}) {
+    run->model.surfaces = {surface};
+    run->lay_wire(vessel.ways_W[0], 0.42);
+    run->inputs.rods[0].feed_m_s = 0.05;
+    run->inputs.rods[0].base.turn_rate_W_rad_s = Vector3d(20, 0, 0);
+  }
+  long posed = 0, posed_awake = 0;
+  for (int n = 0; n < 800; ++n) {
+    if (n % 8 == 0) wall.move(0.4e-3 * (1 - std::cos(0.01 * n)));
+    a.step(90);
+    if (n % 5 == 0) b.scratch = core::Scratch(b.model);  // everything is awake
+    b.step(90);
+    posed += a.report.counts.clusters, posed_awake += b.report.counts.clusters;
+    ASSERT_EQ(hash(a.state), hash(b.state)) << n;
+  }
+  EXPECT_GT(posed, 800);
+  EXPECT_LT(posed, posed_awake);
+  EXPECT_FALSE(a.report.touches.empty());
 }
 
 /// A wire in a moving branch, driven at random, stays inside, as tested with the triangles.

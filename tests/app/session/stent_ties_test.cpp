@@ -51,7 +51,7 @@ TEST(StentTies, EachPointIsTiedToTheNearestPlaceOfTheWall) {
   const vascular::VesselPath& path = run.model.treatment.paths[static_cast<std::size_t>(stent.branch)];
   constexpr double phase = 0.4;
   vascular::Mesh mesh{.vertices = {}, .triangles = c.patient->lumen.triangles};
-  c.shape->at(wall.radius_m, phase, 0, mesh.vertices);
+  c.shape->at(wall.radius_m, {.phase = phase}, mesh.vertices);
   const vascular::BoundingVolumeHierarchy surface(mesh);
   tie_to_wall(*c.ties, model, path, wall, {.phase = phase}, stent);
   const auto points = points_on_path(model, stent, c.map, path, {.phase = phase});

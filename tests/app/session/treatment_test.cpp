@@ -216,7 +216,7 @@ TEST(Treatment, AnOpenBalloonStaysInItsArtery) {
   const auto branch_of = [&](const vascular::TreatmentState& treatment) {
     CouplingState coupling = run.state.coupling;
     coupling.held = false;  // within a stent it meets no wall
-    look(model, aside, treatment, report, run.state.blood.heart.phase, 0, scratch, coupling);
+    look(model, aside, treatment, report, {.phase = run.state.blood.heart.phase}, scratch, coupling);
     return coupling.branch;
   };
   const double artery = run.state.coupling.branch;

@@ -3,9 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "core/base/units.h"
+#include "core/samples/steel_wire.h"
+#include "core/samples/tube.h"
 
 namespace ostium::vascular {
 namespace {
@@ -102,6 +106,107 @@ TEST(ArteryBed, NeverGoesFartherThanItMay) {
   one.load_N[50] = Vector3d(50, 0, 0);
   one.settle();
   EXPECT_NEAR(one.state.aside_P[50].norm(), one.model.law.most_aside_m, 1e-9);
+}
+
+/// A straight wire in a wavy artery, whose wall lies aside as the bed lets it. It touches the inner side of each crest:
+/// loads P, alternating every half wave, on both of them. Of wire and artery each, the deflection at a crest is
+///   4 P / L times the sum of 1 / (EI (n q)^4 + bed) over the odd n,
+/// and both together are the height of the wave less the room that the wire has.
+class WireInAWavyArtery {
+ public:
+  static constexpr int cells = 400, around = 24;
+  static constexpr double wave_m = 40 * cell_m, high_m = 1.2e-3, wire_m = 0.45e-3, lumen_m = 0.75e-3;
+  static constexpr double q = 2 * pi / wave_m;
+
+  explicit WireInAWavyArtery(double E_Pa) : artery_({{-1, cells, cell_m, lumen_m}}) {
+    core::RodDescription d = core::steel_wire({.elements = 260, .E_Pa = E_Pa, .length_m = (cells - 20) * cell_m});
+    d.damping.drag_across_N_s_m2 = 1;
+    EI_N_m2 = d.sections[0].EI1_N_m2;
+    const core::SurfaceDescription wall = artery_wall();
+    surface_ = std::make_shared<core::Surface>(make_surface(wall));
+    editor_.emplace(wall, *surface_);
+    editor_->let_yield();
+    for (const Vector3d& p : wall.frames[0]) at_m_.push_back(p.x());
+    core::Model model;
+    model.rods = {make_rod(d)}, model.surfaces = {surface_}, model.gravity_W.setZero();
+    wire_.emplace(std::move(model), core::along_x());
+    wire_->inputs.surfaces.resize(1);
+  }
+
+  /// The artery is bent into its shape within 0.3 s; then both settle.
+  void run(double for_s) {
+    const auto bent = [](int n) { return std::min(1.0, n / 300.0); };
+    for (int n = 0; n < 1000 * for_s; ++n) {
+      wire_->inputs.surfaces[0].sway_before = bent(n), wire_->inputs.surfaces[0].sway_after = bent(n + 1);
+      wire_->step();
+      if (n % 8 == 0) give_way();
+    }
+  }
+
+  /// How far the crests in the middle are straightened, on the mean.
+  double straightened_m() const {
+    double sum = 0;
+    for (int crest = 8; crest < 12; ++crest) {
+      const double outwards = crest % 2 ? -1 : 1;
+      sum -= outwards * artery_.state.aside_P[static_cast<std::size_t>(20 * crest + 10)].y() / 4;
+    }
+    return sum;
+  }
+  double expected_m() const {
+    const double room_m = lumen_m - wire_m / std::cos(pi / around);  // in a groove of the tube
+    double of_wire = 0, of_artery = 0;
+    for (int n = 1; n < 400; n += 2) {
+      const double q4 = std::pow(n * q, 4);
+      of_wire += 1 / (EI_N_m2 * q4), of_artery += 1 / (artery_.model.EI_N_m2[200] * q4 + artery_.model.law.bed_N_m2);
+    }
+    return (high_m - room_m) * of_artery / (of_wire + of_artery);
+  }
+  double EI_N_m2 = 0;
+
+ private:
+  /// It waves in the middle, and is straight at its ends.
+  static double wave(double x_m) {
+    const double from_end_m = std::min(x_m, cells * cell_m - x_m),
+                 grown = std::clamp((from_end_m - wave_m) / wave_m, 0.0, 1.0);
+    return grown * grown * (3 - 2 * grown) * high_m * std::sin(q * x_m);
+  }
+
+  core::SurfaceDescription artery_wall() const {
+    std::vector<core::TubePoint> points;
+    for (int c = -2; c <= cells; ++c) points.push_back({Vector3d(c * cell_m, 0, 0), lumen_m});
+    core::SurfaceDescription wall = core::tube(points, around);
+    for (const Vector3d& p : wall.frames[0]) wall.sway.emplace_back(0, wave(p.x()), 0);
+    return wall;
+  }
+
+  void give_way() {
+    for (Vector3d& load : artery_.load_N) load.setZero();
+    for (const core::Touch& touch : wire_->report.touches)
+      artery_.load_N[static_cast<std::size_t>(std::clamp<long>(std::lround(touch.p_W.x() / cell_m), 0, cells - 1))] -=
+          touch.normal_W_N;
+    artery_.run(8e-3);
+    const std::vector<Vector3d>& z = artery_.state.aside_P;
+    for (std::size_t v = 0; v < at_m_.size(); ++v) {
+      const double at = std::clamp(at_m_[v] / cell_m, 0.0, cells - 1.001);
+      const auto c = static_cast<std::size_t>(at);
+      editor_->put_aside(static_cast<int>(v), z[c] + (at - static_cast<double>(c)) * (z[c + 1] - z[c]));
+    }
+    editor_->refit_aside();
+  }
+
+  Arteries artery_;
+  std::optional<core::Bench> wire_;
+  std::shared_ptr<core::Surface> surface_;
+  std::optional<core::SurfaceEditor> editor_;
+  std::vector<double> at_m_;
+};
+
+TEST(ArteryBed, AWireStraightensAnArtery) {
+  for (const double E_Pa : {0.3e9, 1e9}) {
+    WireInAWavyArtery one(E_Pa);
+    one.run(2);
+    EXPECT_NEAR(one.straightened_m(), one.expected_m(), 0.05 * one.expected_m()) << one.EI_N_m2;
+  }
 }
 
 TEST(PressurisedTube, WrinklesAndReachesItsLargestMoment) {
