@@ -77,7 +77,8 @@ int main(int argc, char** argv) {
   std::string recording;
   std::vector<std::string> procedures, renderers;
   ProfileOptions replays;
-  int feed_trips = 0, drives = 0;
+  int feed_trips = 0, drives = 0, coronary_drives = 0;
+  std::string arteries = "rigid";
   CLI::App app("Times the step: CPU time of one simulated millisecond, beside its accuracy gate and the yardstick.",
                "ostium-bench");
   app.add_flag("--json", json, "Machine-readable: {\"machine\", \"rows\"}");
@@ -95,6 +96,12 @@ int main(int argc, char** argv) {
   app.add_option("--late", late_s, "Instead: so many seconds of a 1 kHz loop, alone and beside frames");
   app.add_option("--drives", drives,
                  "Instead: so many random drives through the beating test vessel (10 take a minute)");
+  CLI::Option* in_coronary =
+      app.add_option("--coronary-drives", coronary_drives,
+                     "Instead: so many with wire and balloon in a case's beating artery (5 take a minute)");
+  app.add_option("--arteries", arteries, "With --coronary-drives: rigid, or yield to instruments")
+      ->check(CLI::IsMember({"rigid", "yield"}))
+      ->needs(in_coronary);
   app.add_option("--soak", soak_min, "Instead: so many simulated minutes of the scripted procedure there");
   CLI::Option* procedure =
       app.add_option("--procedure", procedures,
@@ -122,6 +129,7 @@ int main(int argc, char** argv) {
     return 0;
   }
   if (drives > 0) return print_drives(drives) ? 0 : 1;
+  if (coronary_drives > 0) return print_coronary_drives(coronary_drives, arteries) ? 0 : 1;
   if (soak_min > 0) return print_soak(soak_min) ? 0 : 1;
   if (late_s > 0) {
     print_late_ticks(late_s);

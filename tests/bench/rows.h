@@ -48,10 +48,15 @@ std::vector<Row> nested_rods(const Duration& duration);
 /// Guide and wire of the catalogue in the moving test vessel, with the scripted procedure of app/gates/drives.h.
 Row vessel_pair(const std::string& name, bool quick);
 
+inline constexpr double deepest_drive_m = 0.178e-3;  ///< allowed of a random drive by the gate
+
 /// Random drives 0 to count - 1 of 5 s, and their penetration; or the scripted procedure repeatedly, with energy and
 /// memory, one line a minute. Printed; false if any wire escaped, or was deeper than the gates allow.
 bool print_drives(int count);
 bool print_soak(double minutes);
+/// The same of guide, balloon and wire in a case's right coronary, the balloon filled and emptied at random;
+/// `arteries`: rigid or yield.
+bool print_coronary_drives(int count, const std::string& arteries);
 
 /// Mean CPU time, ms per step, of free rods from 16 to 4,096 elements.
 struct GrowthPoint {

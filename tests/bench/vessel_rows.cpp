@@ -14,7 +14,7 @@ namespace ostium::bench {
 namespace {
 
 constexpr double beats_per_min = 75;
-constexpr double procedure_m = 0.05e-3, drive_m = 0.178e-3;  // allowed by the gates
+constexpr double procedure_m = 0.05e-3;  // allowed by the gate
 
 /// Memory of the process, MiB.
 double memory_MiB() {
@@ -65,13 +65,13 @@ bool print_drives(int count) {
     const app::gates::Holding holding = app::gates::random_drive(vessel, static_cast<std::uint64_t>(seed), 5);
     if (holding.deepest_m > deepest) deepest = holding.deepest_m, worst = seed;
     escapes += holding.escapes;
-    if (holding.escapes > 0 || holding.deepest_m > drive_m || (seed + 1) % 10 == 0 || seed + 1 == count) {
+    if (holding.escapes > 0 || holding.deepest_m > deepest_drive_m || (seed + 1) % 10 == 0 || seed + 1 == count) {
       fmt::print("drive {:4}: {:.4f} mm, {} outside, {} steps in trouble; so far {:.4f} mm (drive {}), {} outside\n",
                  seed, 1e3 * holding.deepest_m, holding.escapes, holding.troubled, 1e3 * deepest, worst, escapes);
       std::fflush(stdout);
     }
   }
-  return escapes == 0 && deepest < drive_m;
+  return escapes == 0 && deepest < deepest_drive_m;
 }
 
 bool print_soak(double minutes) {
