@@ -85,15 +85,17 @@ const fluoro::Scene& PatientScene::at(const vascular::PhysiologyState& state, st
            body.contrast.along_kg_m2},
           scratch_);
   if (fluoro::is_seen(body.contrast)) shape_.at(*body.corners, state.radius_m, moment, body.p_P);
-  add_twigs(phase, breath);
+  add_twigs(moment);
   return scene_;
 }
 
 /// As dense as the blood where each leaves its vessel.
-void PatientScene::add_twigs(double phase, double breath) {
+void PatientScene::add_twigs(const vascular::LumenMoment& moment) {
   const fluoro::Contrast& from = lumen().contrast;
   twigs_.fill([&](int root) { return from.iodine_kg_m3[root]; });
-  if (!twigs_.empty()) scene_.moving.push_back(twigs_.at(patient_.lumen, phase, breath));
+  if (!twigs_.empty())
+    scene_.moving.push_back(twigs_.at(patient_.lumen, moment.phase, moment.breath,
+                                      [&](int root) { return shape_.aside(static_cast<std::size_t>(root), moment); }));
 }
 
 }  // namespace ostium::app

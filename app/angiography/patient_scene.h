@@ -31,7 +31,7 @@ class PatientScene {
 
  private:
   void set_still_lumen();
-  void add_twigs(double phase, double breath);
+  void add_twigs(const vascular::LumenMoment& moment);
 
   const vascular::Patient& patient_;
   const vascular::PhysiologyModel& physiology_;

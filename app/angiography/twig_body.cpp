@@ -43,15 +43,17 @@ void TwigBody::join(const std::vector<std::size_t>& filled) {
   body_.contrast.p_PC.resize(3, vertices);
 }
 
-fluoro::Body TwigBody::at(const vascular::MovingLumen& lumen, double phase, double breath) const {
+fluoro::Body TwigBody::at(const vascular::MovingLumen& lumen, double phase, double breath,
+                          const std::function<Eigen::Vector3d(int root)>& aside_at) const {
   fluoro::Body out = body_;
   std::vector<Eigen::Vector3d> vertices;
   Eigen::Index first = 0;
   for (std::size_t t : filled_) {
     vascular::at(*twigs_, t, lumen, phase, breath, vertices);
     const auto count = static_cast<Eigen::Index>(vertices.size());
+    const Eigen::Vector3d aside = aside_at ? aside_at(twigs_->root[t]) : Eigen::Vector3d(Eigen::Vector3d::Zero());
     for (Eigen::Index v = 0; v < count; ++v)
-      out.p_P.col(first + v) = vertices[static_cast<std::size_t>(v)].cast<float>();
+      out.p_P.col(first + v) = (vertices[static_cast<std::size_t>(v)] + aside).cast<float>();
     // Evenly filled: depths may be counted from any point of it.
     out.contrast.p_PC.middleCols(first, count).colwise() = Eigen::Vector3f(out.p_P.col(first));
     first += count;

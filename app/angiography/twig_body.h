@@ -15,8 +15,10 @@ class TwigBody {
   /// `iodine_at`: kg/m3 at the vertex of the lumen from which a twig comes; each is filled evenly.
   void fill(const std::function<float(int root)>& iodine_at);
   bool empty() const { return filled_.empty(); }  ///< none is filled
-  /// Those that are filled, at a phase and a depth of breath; not if there are none.
-  fluoro::Body at(const vascular::MovingLumen& lumen, double phase, double breath) const;
+  /// Those that are filled, at a phase and a depth of breath; not if there are none. `aside_at`: how far the vertex
+  /// from which a twig comes lies aside, and the twig with it; null: they all lie where they grew.
+  fluoro::Body at(const vascular::MovingLumen& lumen, double phase, double breath,
+                  const std::function<Eigen::Vector3d(int root)>& aside_at = {}) const;
 
  private:
   void join(const std::vector<std::size_t>& filled);

@@ -54,6 +54,7 @@ Labeller::Labeller(const SessionModel& model) : model_(model), triangles_(triang
     const bool of_parent = branch.parent >= 0 && coronary_[static_cast<std::size_t>(branch.parent)];
     coronary_.push_back(model.has_patient() && (of_parent || branch.name == "LM" || branch.name == "RCA"));
   }
+  if (model.bed) find_cells();
   const SessionState first = make_state(model, 0);
   const std::vector<Vector3d> wall = wall_at(first);
   for (const auto& t : triangles_) {
@@ -64,7 +65,22 @@ Labeller::Labeller(const SessionModel& model) : model_(model), triangles_(triang
   }
 }
 
-/// The lumen as it is: beating, breathing, narrowed, opened by treatment.
+/// The cell nearest to each sphere of a coronary artery.
+void Labeller::find_cells() {
+  const vascular::FlowTree& tree = model_.vessel->coronaries->tree();
+  for (const vascular::TreeBranch& branch : model_.vessel->way->branches())
+    cell_of_.emplace_back(branch.spheres.size(), -1);
+  for (const vascular::FlowBranch& branch : tree.branches) {
+    std::vector<int>& cells = cell_of_[static_cast<std::size_t>(branch.tree_branch)];
+    int cell = branch.first;
+    for (std::size_t s = 0; s < cells.size(); ++s) {
+      while (cell + 1 < branch.last && tree.cells[static_cast<std::size_t>(cell)].sphere < static_cast<int>(s)) ++cell;
+      cells[s] = cell;
+    }
+  }
+}
+
+/// The lumen as it is: beating, breathing, narrowed, opened by treatment, pushed aside.
 std::vector<Vector3d> Labeller::wall_at(const SessionState& state) const {
   const Vessel& vessel = *model_.vessel;
   const vascular::LumenMoment at = moment(model_, state);
@@ -82,7 +98,9 @@ Vector3d Labeller::centre(std::size_t branch, std::size_t sphere, const SessionS
   const auto& still = vessel.patient->tree_breath;
   const auto frame =
       static_cast<std::size_t>(std::lround(state.blood.heart.phase * static_cast<double>(frames.size())));
-  const Vector3d p = frames[frame % frames.size()].branches[branch].spheres[sphere].p;
+  Vector3d p = frames[frame % frames.size()].branches[branch].spheres[sphere].p;
+  if (!cell_of_.empty() && cell_of_[branch][sphere] >= 0)
+    p += state.wall_aside_P[static_cast<std::size_t>(cell_of_[branch][sphere])];
   return still.empty() ? p : Vector3d(p + breath(model_, state) * still[branch][sphere]);
 }
 

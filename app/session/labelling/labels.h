@@ -49,6 +49,7 @@ class Labeller {
   Labels at(const SessionState& state, const fluoro::View& view) const;
 
  private:
+  void find_cells();
   std::vector<Eigen::Vector3d> wall_at(const SessionState& state) const;
   void add_vessels(const SessionState& state, const fluoro::View& view, Labels& out) const;
   void add_tools(const SessionState& state, const fluoro::View& view, Labels& out) const;
@@ -60,6 +61,7 @@ class Labeller {
   const std::vector<std::array<int, 3>>& triangles_;  ///< of the lumen
   std::vector<int> branch_of_;                        ///< of each triangle
   std::vector<bool> coronary_;                        ///< whether a branch is one
+  std::vector<std::vector<int>> cell_of_;             ///< of each branch's spheres; -1: none
 };
 
 }  // namespace ostium::app

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "app/session/labelling/labels.h"
 #include "app/session/model/penetration.h"
 #include "app/session/run/play.h"
 #include "app/session/run/replay.h"
@@ -125,6 +126,24 @@ TEST(YieldingArteries, WhatShowsThemShowsIt) {
     EXPECT_LT((wall - off).norm(), 1e-12);
   }
   EXPECT_GT(moved, 1000);
+}
+
+TEST(YieldingArteries, ALabelsCentrelineGoesAlong) {
+  const SessionModel model = make_session(setup_with("yield"), vessel());
+  SessionState state = make_state(model, 0);
+  const Labeller labeller(model);
+  const fluoro::View view;
+  const auto line_of_RCA = [&] {
+    for (LabelledThing& thing : labeller.at(state, view).things)
+      if (thing.name == "RCA") return thing.line_P;
+    return Eigen::Matrix3Xd(3, 0);
+  };
+  const Eigen::Matrix3Xd before = line_of_RCA();
+  ASSERT_GT(before.cols(), 20);
+  const Vector3d by(0.3e-3, -0.2e-3, 0.1e-3);
+  for (Vector3d& aside : state.wall_aside_P) aside = by;
+  const Eigen::Matrix3Xd after = line_of_RCA();
+  for (Eigen::Index i = 0; i < before.cols(); ++i) EXPECT_LT((after.col(i) - before.col(i) - by).norm(), 1e-12);
 }
 
 TEST(YieldingArteries, RigidOnesAreTheRunThatTheyWere) {
