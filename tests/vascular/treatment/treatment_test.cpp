@@ -122,6 +122,39 @@ TEST(Balloon, SlipsWhenItSitsOnAShoulder) {
   EXPECT_GT(slip(8, 0.5), slip(8, 2));
 }
 
+/// In a hard artery that widens by `slope` (of the radius), and everywhere narrower than the balloon.
+Bench in_a_cone(double slope, double friction) {
+  Bench bench({.stenosis = 0, .balloon_mm = 3, .balloon_length_mm = 40, .change = [=](TreatmentModel& m) {
+                 m.balloons[0].friction = friction;
+               }});
+  for (std::size_t c = 0; c < bench.model.plaque.cells.size(); ++c) {
+    PlaqueCell& cell = bench.model.plaque.cells[c];
+    const double from_middle_m = (static_cast<double>(c) - 99.5) * 0.4 * mm;
+    cell.healthy_m = cell.diseased_m = std::max(0.5 * mm, 1.1 * mm + slope * from_middle_m);
+    cell.E_Pa = 3000 * atm, cell.yield_Pa = 1e4 * atm;
+  }
+  bench.state.wall = make_plaque_state(bench.model.plaque);
+  bench.run(8, 25);
+  return bench;
+}
+
+TEST(Balloon, OnAConeItSeedsAtTheAngleThatFrictionSays) {
+  const double slope = 0.012;
+  const Bench held = in_a_cone(slope, 1.2 * slope), sliding = in_a_cone(slope, 0.8 * slope),
+              back = in_a_cone(-slope, 0.8 * slope), level = in_a_cone(0, 1e-4);
+  const auto steep = [](const Bench& bench) { return bench.report.balloon.axial_N / bench.report.balloon.pressed_N; };
+  EXPECT_NEAR(steep(held), slope, 0.05 * slope) << "what the wall pushes along, over what it presses";
+  EXPECT_LT(held.state.balloon.slip_m, 0.2 * mm) << "a little, while only its narrow end touches";
+  EXPECT_GT(sliding.state.balloon.slip_m, 2 * mm) << "towards the wider end";
+  EXPECT_LT(back.state.balloon.slip_m, -2 * mm);
+  // It stays where its shaft and friction hold it together.
+  const BalloonReport& at = sliding.report.balloon;
+  const BalloonModel& own = sliding.model.balloons[0];
+  EXPECT_NEAR(own.grip_N_m * sliding.state.balloon.slip_m, at.axial_N - own.friction * at.pressed_N,
+              0.05 * own.friction * at.pressed_N);
+  EXPECT_LT(std::fabs(level.state.balloon.slip_m), 0.02 * mm);
+}
+
 TEST(Balloon, StopsTheFlowMeanwhile) {
   Bench bench({.stenosis = 0.4});  // in a tighter one the folded balloon blocks flow, too
   bench.run(0, 3);
