@@ -290,9 +290,10 @@ inline constexpr ConsoleRow console_rows[] = {
      ConsoleNeeds::console,
      true,
      "a trainer's: 1 perforation (hole in mm), 2 dissection (grade, 0 is A to 5 is F), 3 spasm, 4 no-reflow (share), "
-     "5 fibrillation, 6 AV block, 7 thrombus (mm3), 8 air in the line (mL); in which artery, how far from its "
-     "beginning, how large",
-     {{{"what", 1, 8, "1", true}, {"artery", 0, 999, "1", true}, {"place", 0, 400, "mm"}, {"size", 0, 200, "1"}}}},
+     "5 fibrillation, 6 AV block, 7 thrombus (mm3), 8 air in the line (mL), 9 vagal reaction (share); in which artery, "
+     "how "
+     "far from its beginning, how large",
+     {{{"what", 1, 9, "1", true}, {"artery", 0, 999, "1", true}, {"place", 0, 400, "mm"}, {"size", 0, 200, "1"}}}},
     {ConsoleCommand::reference, "reference", false, ConsoleNeeds::nothing, false, "this picture becomes the reference"},
     {ConsoleCommand::roadmap,
      "roadmap",

@@ -35,7 +35,9 @@ double heard(const CirculationState& s, double ago_s) {
 
 void hear(const CirculationModel& model, const CirculationInputs& in, CirculationState& s) {
   const BaroreflexModel& m = model.reflex;
-  const double x = in.reflexes ? m.scale_Pa * std::atan((s.set_Pa - s.mean_Pa) / m.scale_Pa) : 0;
+  const double answers = in.reflexes ? m.scale_Pa * std::atan((s.set_Pa - s.mean_Pa) / m.scale_Pa) : 0,
+               x = (1 - s.vagal_reaction) * answers - s.vagal_reaction * m.scale_Pa * pi / 2;
+  s.vagal_reaction *= std::exp(-heard_every_s / m.reaction_passes_s);
   s.heard_Pa[static_cast<std::size_t>(s.heard_at)] = static_cast<float>(x);
   s.heard_at = (s.heard_at + 1) % heard_count;
   const auto follow = [&](double after_s, double in_s, double& y) {

@@ -53,6 +53,7 @@ struct BaroreflexModel {
   double veins_after_s = 5, veins_in_s = 20;
   /// Heart period that resting vagal tone adds: full block takes the rate from 70 to 100 [atropine, usual effect].
   double vagal_tone_s = 0.25;
+  double reaction_passes_s = 150;  ///< time constant of a vagal reaction that is left to itself [estimate: minutes]
 };
 
 struct CirculationModel {
@@ -123,6 +124,9 @@ struct CirculationState {
   int heard_at = 0;
   double heard_s = 0;  ///< since the last of them
   double vagal_Pa = 0, sympathetic_Pa = 0, resistance_Pa = 0, contractility_Pa = 0, veins_Pa = 0;  ///< x as each acts
+  /// [0, 1]: of a vagal reaction, in which the reflex is turned round: by this share it acts as it would at a pressure
+  /// far too high, x = -s pi / 2. Atropine gives back the rate alone; the vessels stay wide until it has passed.
+  double vagal_reaction = 0;
   double rate_1_min = 70;  ///< that the sinus node now has
 };
 constexpr auto fields(const CirculationState*) {
@@ -152,6 +156,7 @@ constexpr auto fields(const CirculationState*) {
                     core::field("resistance_Pa", &S::resistance_Pa),
                     core::field("contractility_Pa", &S::contractility_Pa),
                     core::field("veins_Pa", &S::veins_Pa),
+                    core::field("vagal_reaction", &S::vagal_reaction),
                     core::field("rate_1_min", &S::rate_1_min)};
 }
 

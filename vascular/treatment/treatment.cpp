@@ -123,6 +123,7 @@ void provoke(const TreatmentModel& model, const FlowTree& tree, const Provocatio
   if (what.kind == Provoked::fibrillation) physiology.heart.rhythm = Rhythm::fibrillation;
   if (what.kind == Provoked::block) physiology.heart.rhythm = Rhythm::block;
   if (what.kind == Provoked::air) add_to_line(what.size, physiology.air);
+  if (what.kind == Provoked::vagal) physiology.heart.circulation.vagal_reaction = std::clamp(what.size, 0.0, 1.0);
   if (what.cell < 0 || static_cast<std::size_t>(what.cell) >= tree.cells.size()) return;
   const int branch = tree.cells[static_cast<std::size_t>(what.cell)].branch;
   const double share = std::clamp(what.size, 0.0, 0.98);

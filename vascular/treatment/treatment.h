@@ -21,16 +21,17 @@ struct TreatmentModel {
 };
 
 /// A complication that a trainer asks for.
-enum class Provoked { nothing, perforation, dissection, spasm, no_reflow, fibrillation, block, thrombus, air };
-inline constexpr int provocations = 9;
+enum class Provoked { nothing, perforation, dissection, spasm, no_reflow, fibrillation, block, thrombus, air, vagal };
+inline constexpr int provocations = 10;
 inline constexpr const char* provocation_names[provocations] = {
-    "nothing", "perforation", "dissection", "spasm", "no-reflow", "VF", "AV block", "thrombus", "air"};
+    "nothing", "perforation", "dissection", "spasm", "no-reflow",
+    "VF",      "AV block",    "thrombus",   "air",   "vagal reaction"};
 
 struct Provocation {
   Provoked kind = Provoked::nothing;
-  int cell = -1;  ///< of the flow tree; not for rhythms, nor for air, which is in the line
+  int cell = -1;  ///< of the flow tree; not for rhythms and reactions, nor for air, which is in the line
   /// Hole's diameter, m; grade of a dissection, 0 to 5; share taken by spasm or no-reflow, [0, 1); volume, m3, of
-  /// thrombus or air.
+  /// thrombus or air; share of the strongest reaction.
   double size = 0;
 };
 

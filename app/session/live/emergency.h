@@ -28,7 +28,8 @@ inline constexpr Provocable provocables[] = {
     {vascular::Provoked::fibrillation, false, nullptr, 0, 6, 0, 1},
     {vascular::Provoked::block, false, nullptr, 0, 6, 0, 1},
     {vascular::Provoked::thrombus, true, "mm3", 1, 200, 25, 1e-9},
-    {vascular::Provoked::air, false, "mL in the line", 0.05, 5, 0.5, 1e-6}};
+    {vascular::Provoked::air, false, "mL in the line", 0.05, 5, 0.5, 1e-6},
+    {vascular::Provoked::vagal, false, "share of the strongest", 0.1, 1, 0.8, 1}};
 static_assert(std::size(provocables) + 1 == vascular::provocations, "all but `nothing`");
 
 /// Empty if this patient can have it; else why not, with what could be. True of other commands, too.

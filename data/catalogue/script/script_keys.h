@@ -145,7 +145,9 @@ inline const JsonObjectKeys step = {
      {"hole_mm", false, "diameter of a perforation, 0.1 to 2; 0.8 if it is not said",
       json_type::number(from_to(0.1, 2))},
      {"grade", false, "of a dissection", json_type::choice({"A", "B", "C", "D", "E", "F"})},
-     {"share", false, "of the diameter that spasm takes, of the muscle that no-reflow closes, 0.1 to 0.98",
+     {"share", false,
+      "of the diameter that spasm takes, of the muscle that no-reflow closes, of the strongest vagal reaction; 0.1 to "
+      "0.98",
       json_type::number(from_to(0.1, 0.98))},
      {"clot_mm3", false, "of a thrombus, 1 to 200; 25 if it is not said", json_type::number(from_to(1, 200))},
      {"air_mL", false, "of air in the line, 0.05 to 5; 0.5 if it is not said", json_type::number(from_to(0.05, 5))}},

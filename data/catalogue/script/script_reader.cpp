@@ -71,10 +71,12 @@ void read_complication(const JsonObject& object, ScriptStep& step) {
   if (object.has("at")) step.at = object.text("at");
   const auto kind = static_cast<Provoked>(1 + object.choice("complication", script_keys::complication_names()));
   step.complication = static_cast<int>(kind);
-  const bool nowhere = kind == Provoked::fibrillation || kind == Provoked::block || kind == Provoked::air;
+  const bool nowhere =
+      kind == Provoked::fibrillation || kind == Provoked::block || kind == Provoked::air || kind == Provoked::vagal;
   if (nowhere == object.has("at"))
-    object.value().fail(object.value().path() + (nowhere ? " has a place; a rhythm has none, and air is in the line"
-                                                         : ".at is missing; expected a place in a coronary artery"));
+    object.value().fail(object.value().path() +
+                        (nowhere ? " has a place; rhythms and reactions have none, and air is in the line"
+                                 : ".at is missing; expected a place in a coronary artery"));
   const auto only_of = [&](const char* key, bool own) {
     if (object.has(key) && !own) object.refuse(key);
     return object.has(key);
@@ -83,11 +85,13 @@ void read_complication(const JsonObject& object, ScriptStep& step) {
               : kind == Provoked::dissection ? 2
               : kind == Provoked::thrombus   ? 25e-9
               : kind == Provoked::air        ? 0.5e-6
+              : kind == Provoked::vagal      ? 0.8
                                              : 0.9;
   if (only_of("hole_mm", kind == Provoked::perforation)) step.size = 1e-3 * object.number("hole_mm");
   if (only_of("grade", kind == Provoked::dissection))
     step.size = static_cast<double>(object.choice("grade", {"A", "B", "C", "D", "E", "F"}));
-  if (only_of("share", kind == Provoked::spasm || kind == Provoked::no_reflow)) step.size = object.number("share");
+  if (only_of("share", kind == Provoked::spasm || kind == Provoked::no_reflow || kind == Provoked::vagal))
+    step.size = object.number("share");
   if (only_of("clot_mm3", kind == Provoked::thrombus)) step.size = 1e-9 * object.number("clot_mm3");
   if (only_of("air_mL", kind == Provoked::air)) step.size = 1e-6 * object.number("air_mL");
 }

@@ -131,6 +131,30 @@ TEST(Circulation, DrainingALittleRestoresThePressureIfNothingLeaks) {
   }
 }
 
+/// The reflex turned round: slow and low; atropine gives back the rate and not the pressure, a pressor the pressure,
+/// and it passes. Reactions are counted as such from 30 mmHg of fall, or below 80 to 90, with less than 50 to 60 beats.
+TEST(Circulation, AVagalReactionIsSlowAndLowAndAtropineGivesBackTheRate) {
+  const auto after = [](double reaction, double block, double constriction, double seconds) {
+    Person person(true);
+    person.state.circulation.vagal_reaction = reaction;
+    person.inputs.body.vagal_block = block, person.inputs.body.constriction = constriction;
+    person.run(seconds);
+    return look(person);
+  };
+  const auto none = after(0, 0, 0, 40), strong = after(0.9, 0, 0, 20), weak = after(0.4, 0, 0, 20),
+             atropine = after(0.9, 1, 0, 20), pressor = after(0.9, 0, 0.6, 20), later = after(0.9, 0, 0, 600);
+  EXPECT_LT(strong.rate_1_min, 55);
+  EXPECT_LT(strong.systolic_Pa, 85 * mmHg);
+  EXPECT_GT(strong.mean_Pa, 25 * mmHg) << "a faint, not a death";
+  EXPECT_GT(weak.systolic_Pa, strong.systolic_Pa + 10 * mmHg);
+  EXPECT_LT(weak.systolic_Pa, none.systolic_Pa);
+  EXPECT_GT(atropine.rate_1_min, none.rate_1_min - 5);
+  EXPECT_LT(atropine.mean_Pa, 0.8 * none.mean_Pa) << "the vessels stay wide";
+  EXPECT_GT(pressor.mean_Pa, strong.mean_Pa + 8 * mmHg);
+  EXPECT_LT(pressor.rate_1_min, 60);
+  EXPECT_NEAR(later.systolic_Pa, none.systolic_Pa, 5 * mmHg);
+}
+
 TEST(Circulation, APressorRaisesResistanceAndSlowsTheHeart) {
   Person person(true);
   const Numbers rest = look(person);
