@@ -40,13 +40,14 @@ int first_exposed(const Rod& rod, const RodState& s, double length_m) {
   return j;
 }
 
-/// Starts the protruding part at `root`; frames follow for elements that have left or returned.
-void expose(const Rod& rod, int first, double length_m, const V3<double>& root, RodState& s) {
+/// Starts the protruding part at `root`; frames follow for elements that have left or returned. `fed_m`: how far the
+/// rod was fed against the one around it since it was solved: the solve takes that up.
+void expose(const Rod& rod, int first, double length_m, double fed_m, const V3<double>& root, RodState& s) {
   const int before = s.exposed, N = rod.elements;
   s.exposed = first;
   if (first == N) return;
   const V3<double> chord = load3<double>(s.position, first + 1) - root;
-  if (std::fabs(norm(chord) - length_m) > tolerances::torn_part * rod.length.at(0)[first]) {
+  if (std::fabs(norm(chord) - length_m) > tolerances::torn_part * rod.length.at(0)[first] + std::fabs(fed_m)) {
     // Rods that were laid out independently: moves the protruding part to where it leaves.
     V3<double> p = root;
     for (int j = first; j < N; ++j) {
@@ -111,7 +112,8 @@ void lay_spans(const Model& model, Scratch& scratch, State& state, Nest& nest) {
       const int first = first_exposed(rod, own, protrudes);
       const int root = nest.spans.back().rod;
       const V3<double> tip = load3<double>(state.rods[root].position, model.rods[root].elements);
-      expose(rod, first, first < rod.elements ? protrudes - rod.node_from_tip_m[first + 1] : 0, tip, own);
+      expose(rod, first, first < rod.elements ? protrudes - rod.node_from_tip_m[first + 1] : 0,
+             scratch.fed_m[r] - scratch.fed_m[root], tip, own);
     }
     const int first = own.exposed, count = rod.elements - first;
     layer.end = at + count;
