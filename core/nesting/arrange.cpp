@@ -1,5 +1,6 @@
 /// Decides which rods form a nest, assembles its chain before a step and takes it apart afterwards.
 #include <algorithm>
+#include <cassert>
 
 #include "core/base/tolerances.h"
 #include "core/math/rotation.h"
@@ -100,17 +101,20 @@ void gather(const State& state, Scratch& scratch, Nest& nest) {
   nest.s.step_s = nest.step_s;
 }
 
-/// The last rod around layer k whose lumen holds it at chain element e.
+/// The last rod around layer k whose lumen holds it at chain element e; where none does, as behind the port of a
+/// balloon that has left its guide, the last that is there, beside whose shaft it lies.
 int host(const Model& model, const Nest& nest, int k, int e) {
+  int beside = -1;
   for (int o = k - 1; o >= 0; --o) {
     const Layer& outer = nest.layers[o];
     if (e >= std::max(outer.covered, outer.end)) continue;
+    if (beside < 0) beside = o;
     for (const Nesting& n : model.nestings)
       if (n.outer == outer.rod && n.inner == nest.layers[k].rod &&
           nest.depth.at(0)[e + 1] > outer.inserted_m - n.lumen_m)
         return o;
   }
-  return 0;
+  return std::max(beside, 0);
 }
 
 /// Finds the bore that each element of the layer is in, and the clearance there.
@@ -121,6 +125,7 @@ void find_hosts(const Model& model, Nest& nest, int k) {
     const Layer& outer = nest.layers[h];
     const Rod& bore = model.rods[outer.rod];
     const int j = e < outer.covered ? outer.from_own.before[e] : bore.elements - outer.end + e;
+    assert(j >= 0 && j < bore.elements);
     layer.room.at(0)[e] = largest(0, bore.bore.at(0)[j] - model.rods[layer.rod].radius.at(0)[layer.from_own.before[e]]);
   }
 }
