@@ -1,7 +1,9 @@
 /// Continuous collision: walls that a node meets on its path through a step.
 #include "core/base/tolerances.h"
 #include "core/contact/broad_phase.h"
+#include "core/contact/contact.h"
 #include "core/contact/narrow_phase.h"
+#include "core/math/rotation.h"
 #include "core/wall/triangle.h"
 
 namespace ostium::core {
@@ -71,6 +73,29 @@ bool first_exit(const Model& model, const V3<double>& from, const V3<double>& to
   return first <= 1;
 }
 
+/// Whether the way leads out of the lumen as the step begins.
+bool leaves(const Model& model, const V3<double>& from, const V3<double>& to, double radius, Scratch& scratch,
+            std::vector<int>& clusters) {
+  Bounds bounds;
+  bounds.take(from, 0), bounds.take(to, 0);
+  for (std::size_t k = 0; k < model.surfaces.size(); ++k) {
+    const Surface& surface = *model.surfaces[k];
+    const bool passes = lets_through(surface, scratch.surfaces[k], radius);
+    find_clusters(surface, bounds.low, bounds.high, scratch.surfaces[k], clusters);
+    for (int cluster : clusters) {
+      const ClusterPose& pose = pose_of(surface, cluster, scratch.surfaces[k]);
+      const Surface::Cluster& c = surface.clusters[cluster];
+      for (int j = c.first_triangle; j < c.first_triangle + c.triangles; ++j) {
+        if (passes && surface.triangles[j].door) continue;
+        const auto corner = [&](int n) { return load3<double>(pose.before, surface.triangles[j].corner[n]); };
+        double part;
+        if (leaves_through(from, to, corner(0), corner(1), corner(2), part)) return true;
+      }
+    }
+  }
+  return false;
+}
+
 /// Index for a plane found on the path: that of a plane with the same direction, else a free one, else that of the
 /// farthest plane. -1: none.
 int slot_for(const WallPlane& plane, const V3<double>& to, const bool* taken, const NodeWalls& walls) {
@@ -111,6 +136,25 @@ void spare(const V3<double>& start, WallPlane& plane) {
 }
 
 }  // namespace
+
+void move_torn_part(const Model& model, const Strand& strand, int first, Scratch& scratch) {
+  const Rod& rod = strand.s->inside;
+  RodState& own = *strand.own;
+  const auto next = [&](const V3<double>& p, int i) {
+    return madd(rod.length.at(0)[i], director3(load4<double>(own.orientation, i)), p);
+  };
+  V3<double> p = load3<double>(own.position, first);
+  for (int i = first; i < rod.elements; ++i) {
+    const V3<double> to = next(p, i);
+    if (leaves(model, p, to, rod.radius.at(0)[i + 1], scratch, strand.contact->clusters)) return;
+    p = to;
+  }
+  p = load3<double>(own.position, first);
+  for (int i = first; i < rod.elements; ++i) {
+    p = next(p, i);
+    for (Field<3>* f : {&own.position, &own.position_before}) store3(*f, i + 1, p);
+  }
+}
 
 double deeper_than_planes(const Model& model, const RodState& own, int i, const V3<double>& at, Scratch& scratch,
                           const RodScratch& s, ContactScratch& c) {

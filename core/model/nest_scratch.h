@@ -80,6 +80,7 @@ struct Nest {
   int layer_count = 0;
   std::vector<Layer> layers;  ///< in the order of members
   Laid laid[max_layers];
+  int torn_at = -1;   ///< node of the chain beyond which a part is to be moved to where it leaves; -1: none
   bool moved = true;  ///< the rods' arrangement changed: interpolation and cells are recomputed
   double step_s = 0;
   RodScratch s;  ///< of the chain

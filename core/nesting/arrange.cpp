@@ -102,7 +102,8 @@ void gather(const State& state, Scratch& scratch, Nest& nest) {
 }
 
 /// The last rod around layer k whose lumen holds it at chain element e; where none does, as behind the port of a
-/// balloon that has left its guide, the last that is there, beside whose shaft it lies.
+/// balloon that has left its guide, the last that is there, beside whose shaft it lies. -1: beyond all of them, as the
+/// end of a layer within the last element of a bore may be.
 int host(const Model& model, const Nest& nest, int k, int e) {
   int beside = -1;
   for (int o = k - 1; o >= 0; --o) {
@@ -114,14 +115,17 @@ int host(const Model& model, const Nest& nest, int k, int e) {
           nest.depth.at(0)[e + 1] > outer.inserted_m - n.lumen_m)
         return o;
   }
-  return std::max(beside, 0);
+  return beside;
 }
 
 /// Finds the bore that each element of the layer is in, and the clearance there.
 void find_hosts(const Model& model, Nest& nest, int k) {
   Layer& layer = nest.layers[k];
   for (int e = 0; e < layer.covered; ++e) {
-    const int h = layer.host[e] = host(model, nest, k, e);
+    const int h = host(model, nest, k, e);
+    layer.host[e] = std::max(h, 0);
+    layer.room.at(0)[e] = 0;
+    if (h < 0) continue;
     const Layer& outer = nest.layers[h];
     const Rod& bore = model.rods[outer.rod];
     const int j = e < outer.covered ? outer.from_own.before[e] : bore.elements - outer.end + e;

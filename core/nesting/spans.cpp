@@ -40,26 +40,19 @@ int first_exposed(const Rod& rod, const RodState& s, double length_m) {
   return j;
 }
 
-/// Starts the protruding part at `root`; frames follow for elements that have left or returned. `fed_m`: how far the
-/// rod was fed against the one around it since it was solved: the solve takes that up.
-void expose(const Rod& rod, int first, double length_m, double fed_m, const V3<double>& root, RodState& s) {
+/// Starts the protruding part at `root`; frames follow for elements that have left or returned. True if that part is
+/// to be moved there: rods that were laid out independently, or part faster than that.
+bool expose(const Rod& rod, int first, double length_m, const V3<double>& root, RodState& s) {
   const int before = s.exposed, N = rod.elements;
   s.exposed = first;
-  if (first == N) return;
+  if (first == N) return false;
   const V3<double> chord = load3<double>(s.position, first + 1) - root;
-  if (std::fabs(norm(chord) - length_m) > tolerances::torn_part * rod.length.at(0)[first] + std::fabs(fed_m)) {
-    // Rods that were laid out independently: moves the protruding part to where it leaves.
-    V3<double> p = root;
-    for (int j = first; j < N; ++j) {
-      p = madd(j == first ? length_m : rod.length.at(0)[j], director3(load4<double>(s.orientation, j)), p);
-      for (Field<3>* f : {&s.position, &s.position_before}) store3(*f, j + 1, p);
-    }
-    return;
-  }
-  if (first == before) return;
+  if (std::fabs(norm(chord) - length_m) > tolerances::torn_part * rod.length.at(0)[first]) return true;
+  if (first == before) return false;
   swing(chord, first, s);
   for (int j = first + 1; j <= before && j < N; ++j)
     swing(load3<double>(s.position, j + 1) - load3<double>(s.position, j), j, s);
+  return false;
 }
 
 void set_joint_lengths(Rod& rod) {
@@ -93,6 +86,7 @@ void lay_over(const Rod& inside, const Rod& inner, const RodState& along, RodSta
 
 void lay_spans(const Model& model, Scratch& scratch, State& state, Nest& nest) {
   nest.spans.clear();
+  nest.torn_at = -1;
   Rod& chain = nest.s.inside;
   double reach = 0;
   int at = 0;
@@ -112,8 +106,8 @@ void lay_spans(const Model& model, Scratch& scratch, State& state, Nest& nest) {
       const int first = first_exposed(rod, own, protrudes);
       const int root = nest.spans.back().rod;
       const V3<double> tip = load3<double>(state.rods[root].position, model.rods[root].elements);
-      expose(rod, first, first < rod.elements ? protrudes - rod.node_from_tip_m[first + 1] : 0,
-             scratch.fed_m[r] - scratch.fed_m[root], tip, own);
+      if (expose(rod, first, first < rod.elements ? protrudes - rod.node_from_tip_m[first + 1] : 0, tip, own))
+        nest.torn_at = at;
     }
     const int first = own.exposed, count = rod.elements - first;
     layer.end = at + count;

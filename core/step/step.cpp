@@ -88,6 +88,7 @@ void meet_walls(const Model& model, const Inputs& inputs, Piece piece, Scratch& 
   const InPhase phase(scratch.clock, finding_walls);
   move_walls(model, inputs, piece.from, piece.to, scratch);
   for (const Strand& strand : scratch.strands) {
+    if (strand.nest && strand.nest->torn_at >= 0) move_torn_part(model, strand, strand.nest->torn_at, scratch);
     guess_nodes(*strand.own, *strand.s);
     find_walls(model, strand, scratch);
   }
