@@ -62,7 +62,7 @@ export class Scores {
       const when = score?.at_s?.length ? score.at_s.slice(0, 3).map(clock).join(' ') + (score.at_s.length > 3 ? ` … ${score.at_s.length} times` : '') : score?.value ?? '';
       const came = open || (item.kind === 'step' && holds) ? '' : item.kind === 'step' ? ': not done' : holds ? ': did not happen' : ': happened';
       const what = open && item.kind !== 'step' ? `Must not happen: ${item.what}` : item.what;
-      const means = ended && !open && !holds && !needed ? ` (${item.when}). Not needed to pass` : '';
+      const means = ended && !open && !holds && !needed ? `. This counts: ${item.when}. It may happen in a lesson that is passed` : '';
       for (const words of [sign, what + came + means, when]) row.append(Object.assign(document.createElement('span'), { textContent: words }));
       row.title = item.when;
       list.append(row);
