@@ -31,7 +31,7 @@ export class Scores {
     this.add('h2', missed.length ? 'Not yet' : 'Passed');
     for (const i of missed) {
       const item = welcome.scoring.items[i], step = item.kind === 'step';
-      const came = items[i].holds === null ? 'cannot be told' : step ? 'not done' : 'happened';
+      const came = step ? 'not done' : items[i].holds === null ? 'cannot be told' : 'happened';
       this.add('p', `${item.what}: ${came}${items[i].value ? ` (${items[i].value})` : ''}. ${step ? 'Expected' : 'This counts'}: ${item.when}.`).className = 'missed';
     }
     if (missed.length) this.add('p', 'To mend it, choose an earlier second on the bar below and press Go on; or begin anew.').className = 'next';
@@ -55,7 +55,8 @@ export class Scores {
       const score = items?.[i], row = document.createElement('li');
       const holds = score ? score.holds : null;
       // An error that has not come yet, and a step that may still come, are open until the end.
-      const open = holds === null || (!ended && (item.kind === 'step' ? !holds : holds));
+      const missed = ended && item.kind === 'step' && welcome.lesson.needed.includes(i) && !holds; // as the verdict says
+      const open = !missed && (holds === null || (!ended && (item.kind === 'step' ? !holds : holds)));
       const needed = !welcome.lesson.needed.length || welcome.lesson.needed.includes(i);
       row.className = open ? 'open' : holds ? 'yes' : needed ? 'no' : 'aside';
       const sign = open ? '○' : holds ? '✔' : item.kind === 'step' ? '–' : needed ? '✖' : '▲';
