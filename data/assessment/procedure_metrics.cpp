@@ -182,6 +182,17 @@ double tip_reached_mm(const RunRecord& r) {
   return most;
 }
 
+/// Of the tool that came least far.
+double all_tips_reached_mm(const RunRecord& r) {
+  double least = does_not_apply;
+  for (const SignalColumn& along : tool_columns(r, "tip_along_mm")) {
+    double most = 0;
+    for (std::size_t i = 0; i < r.rows(); ++i) most = std::max(most, along[i]);
+    least = std::fmin(least, most);
+  }
+  return least;
+}
+
 }  // namespace
 
 std::vector<MetricDefinition> procedure_metrics() {
@@ -234,6 +245,7 @@ std::vector<MetricDefinition> procedure_metrics() {
        path_ratio},
       {"blind_path_length_mm", "mm", lower, "of the hand path, with the beam off", blind_path_mm},
       {"tip_reached_mm", "mm", neither, "farthest that a tip came along the tree from the access", tip_reached_mm},
+      {"all_tips_reached_mm", "mm", neither, "the same, of the tool that came least far", all_tips_reached_mm},
       {"handling_errors", "1", lower, "events that are errors of handling, critical ones among them",
        errors_of(Severity::error)},
       {"handling_errors_critical", "1", lower, "those that are critical", errors_of(Severity::critical)},

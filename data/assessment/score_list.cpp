@@ -86,10 +86,11 @@ Score judge(const ScoreItem& item, const RunRecord& record, const std::vector<Me
   } else {
     out.holds = ticked(within(static_cast<double>(at.size()), check));
   }
-  if (item.kind == ScoreKind::step)
-    out.at_s.assign(at.begin(), at.begin() + (at.empty() ? 0 : 1));
-  else
+  const auto needed = static_cast<std::size_t>(std::max(1.0, check.least.value_or(1)));
+  if (item.kind != ScoreKind::step)
     out.at_s = at;
+  else if (at.size() >= needed)
+    out.at_s = {at[needed - 1]};
   return out;
 }
 

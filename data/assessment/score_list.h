@@ -39,7 +39,7 @@ ScoreList find_score_list(const std::string& name_or_file);
 enum class Ticked { yes, no, not_seen };  ///< not_seen: cannot be told from the recording
 struct Score {
   Ticked holds = Ticked::not_seen;  ///< yes: the step was done, or the error did not happen
-  std::vector<double> at_s;         ///< when: for a step the first time, for an error every time
+  std::vector<double> at_s;         ///< when: for a step the time at which it was done, for an error every time
   std::string value;                ///< "3.2 mm"; empty if there is none
 };
 /// One score for each of the list's items.

@@ -66,6 +66,7 @@ def begin(browser):
     browser.wait("the lesson", IN_LESSON, 40)
     assert browser.run("return " + text("who")) == "Learner"
     assert ticks(browser) == "▸○○○○○·"
+    assert "answer" not in browser.run("return " + text("numbers")), "before the first step nothing has been measured"
     wanted_cm = float(re.search(r"(\d+) cm in", browser.run("return " + text("lesson")))[1])
     click(browser, "#sound")
     click(browser, "#pause")
@@ -110,9 +111,12 @@ def pass_lesson(browser, wanted_cm):
     browser.wait("the picture says why keys are dead", text("held") + ".startsWith('paused: press Go on')")
     assert not browser.run("return document.getElementById('events-panel').hidden"), "the instructions are away"
     click(browser, "#pause")
-    keys(browser, (True, " "), (True, "s"))
+    keys(browser, (True, " "), (True, "d"))
+    browser.wait("turned", f"{TICKS}.startsWith('✔✔✔✔✔')", 40)
+    keys(browser, (False, "d"), (True, "s"))
     browser.wait("out", f"{IN_CM} === 'out'", 120)
     keys(browser, (False, "s"), (False, " "))
+    browser.wait("all is ticked, and the last words come next", f"{TICKS} === '✔✔✔✔✔✔▸'")
     assert end_run(browser) == "Passed"
     return browser.wait("the next", "document.getElementById('next-lesson')?.textContent")
 

@@ -128,6 +128,19 @@ std::string done_words(const data::Script& script, const data::ScriptStep& step)
   }
 }
 
+/// What the expert does before another try of a step that begins anew further back.
+std::string again_words(const data::Script& script, int from, int failed) {
+  std::string words, last;
+  for (int i = from; i < failed; ++i) {
+    const data::ScriptStep& step = script.steps[static_cast<std::size_t>(i)];
+    std::string one = done_words(script, step);
+    if (step.turn_rad_s == 0) one = one.substr(0, one.find(','));  // how fast matters less than which way
+    if (one != last) words += (words.empty() ? "" : "; ") + one;
+    last = std::move(one);
+  }
+  return "Where that fails, the expert " + words + "; and tries again.";
+}
+
 }  // namespace
 
 std::string hint_of(const data::Script& script, const data::ScriptStep& step) {
@@ -142,7 +155,10 @@ std::vector<std::string> hints_of(const data::Script& script, int from, int end,
   const int last = end < 0 ? static_cast<int>(script.steps.size()) : end;
   for (int i = from; i >= 0 && i < last && out.size() < most; ++i) {
     const data::ScriptStep& step = script.steps[static_cast<std::size_t>(i)];
-    if (!step.label.empty() && !step.detour) out.push_back(hint_of(script, step));
+    if (step.label.empty() || step.detour) continue;
+    out.push_back(hint_of(script, step));
+    if (step.otherwise == data::ScriptStep::Otherwise::jump && step.jump_to < i && out.size() < most)
+      out.push_back(again_words(script, step.jump_to, i));
   }
   return out;
 }

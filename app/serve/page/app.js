@@ -17,6 +17,8 @@ sessionStorage.setItem('token', token);
 history.replaceState(null, '', '/'); // not for shoulders, nor for the history
 
 let welcome = null, now = null, console_ = null, emergency = null, ended = null, closed = false, refusedUntil = 0;
+let goesTo = null; // the second that the run is going back to, for some seconds
+let backAt = null; // the second it has gone back to, until the first numbers from there
 let pace = []; // [wall s, simulated s] of the last seconds
 const truth = new Truth($('truth'));
 const sound = new Sound($('sound'), () => $('stage').focus());
@@ -33,9 +35,22 @@ function ask(words, yes) {
 }
 
 const timeline = new Timeline($('events'), $('bar'), (second) =>
-  ask(`Go back to ${clock(second)} and go on from there? What came later stays recorded.`, () => socket.order('rewind', second)));
+  ask(`Go back to ${clock(second)} and go on from there? What came later stays recorded.`, () => {
+    goesTo = second;
+    socket.order('rewind', second);
+    show();
+  }));
+
+function noPicture() {
+  $('picture').width = $('picture').width; // empty
+  $('empty').hidden = false;
+}
+
+// Pictures come by a way of their own: one of a time that is given up may come late.
+const isOfNow = (data) => backAt === null && !(now && new DataView(data).getFloat64(8, true) > now.s + 0.5);
 
 function refuse(why) {
+  goesTo = null;
   $('refused').textContent = why.replace(/^message:\d+: /, '');
   refusedUntil = performance.now() + 5000;
 }
@@ -57,10 +72,11 @@ const trackers = {
     truth.tree = message.tree;
     timeline.clear();
     timeline.enabled = !viewer && message.goes_back;
+    $('bar').title = timeline.enabled ? 'Click to go back to that second, and go on from there' : '';
     truth.spheres = truth.middle = truth.mark = null;
-    now = null, ended = null, closed = false, pace = [];
-    for (const id of ['empty', 'reference']) $(id).hidden = id === 'reference';
-    $('picture').width = $('picture').width; // empty
+    now = null, ended = null, closed = false, pace = [], goesTo = backAt = null;
+    $('reference').hidden = true;
+    noPicture();
     if (console_) console_.build(message);
     else console_ = new Console($('console-panel'), $('stage'), socket, message);
     emergency = new Emergency(console_, socket, message, (place) => { truth.mark = place; truth.draw(); });
@@ -91,11 +107,17 @@ const trackers = {
   },
   ticks(message) { lesson.ticks(message.at); },
   hint(message) { lesson.hint(message); },
-  now(message) { now = message; show(); },
+  now(message) {
+    now = message;
+    if (now.s < backAt + 0.5) backAt = null;
+    show();
+  },
   events(message) { timeline.add(message.events); },
   branch(message) {
     timeline.goneBack(message.from_s);
-    ended = null;
+    ended = goesTo = null;
+    backAt = message.from_s;
+    noPicture(); // the image held is of a time that is given up
     if (welcome.lesson.title) choose('events'), $('stage').focus(); // the instructions again, and the keys
   },
   scores(message) { if (welcome) scores.show(welcome, ended, message.items); },
@@ -114,7 +136,7 @@ const socket = new Socket(token, {
   text: (message) => trackers[message.type]?.(message),
   bytes: (data) => {
     const bytes = new Uint8Array(data);
-    if (bytes[0] === 1) picture.take(bytes);
+    if (bytes[0] === 1) { if (isOfNow(data)) picture.take(bytes); }
     else if (bytes[0] === 2) reference.take(bytes);
     else if (bytes[0] === 3) truth.take(data);
   },
@@ -155,9 +177,9 @@ function show() {
   $('clock').textContent = clock(now.s);
   const state = ended ? ended.outcome === 'ended' ? 'Ended' : `Ended: ${ended.outcome}` : now.paused ? 'Paused' : 'Running';
   const by = script ? 'the script has the instruments' : now.hands === 'box' ? 'hands at the box' : 'you have the instruments';
-  const words = ended ? state : `${state}, ${by.replace('you', welcome.role === 'trainer' ? 'you' : 'the trainer')}`;
+  const words = goesTo !== null ? `Going back to ${clock(goesTo)} …` : ended ? state : `${state}, ${by.replace('you', welcome.role === 'trainer' ? 'you' : 'the trainer')}`;
   if ($('state').textContent !== words) $('state').textContent = words;
-  $('state').classList.toggle('loud', now.paused || !!ended);
+  $('state').classList.toggle('loud', now.paused || !!ended || goesTo !== null);
   $('pause').textContent = now.paused ? 'Go on' : 'Pause';
   $('pause').disabled = !!ended || welcome.role !== 'trainer';
   $('end').textContent = ended ? course.board ? 'All lessons' : 'Close' : 'End run';
@@ -188,7 +210,7 @@ function show() {
     cells[4].textContent = tool.in ? fixed(tool.wall_N, 2) : '';
     cells[5].textContent = tool.in ? fixed(tool.tip_N, 2) : '';
   });
-  const p = now.patient, x = now.xray;
+  const p = now.s > 0 ? now.patient : null, x = now.xray; // before the first step nothing has been measured
   const arm = [['C-arm', now.arm.words], ['field', `${now.arm.field_mm / 10} cm`], ['fluoroscopy', clock(x.fluoroscopy_s)],
     ['cine', `${x.runs} in ${fixed(x.cine_s, 1)} s`], ['dose', `${fixed(x.dap_Gycm2, 2)} Gy cm²`]];
   const numbers = p ? [['gauge', `${fixed(p.gauge_atm, 1)} atm`], ['balloon', `${fixed(p.balloon_mm, 2)} mm`], ['contrast', `${fixed(p.contrast_mL, 1)} mL`], ['ACT', `${fixed(p.act_s, 0)} s`],

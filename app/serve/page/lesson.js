@@ -37,10 +37,11 @@ export class Lesson {
     this.hintWords.textContent = message.words + (message.more ? ' (Once more: what the expert does then.)' : '');
     this.hintWords.scrollIntoView({ block: 'nearest' });
   }
+  // What comes next is the first that is not ticked; once all are, the last words.
   state(i) {
-    if (!this.words.instructions[i].ticks) return 'plain';
-    if (this.at[i] !== null) return 'done';
-    return i === this.words.instructions.findIndex((one, k) => one.ticks && this.at[k] === null) ? 'next' : 'open';
+    const all = this.words.instructions, open = all.findIndex((one, k) => one.ticks && this.at[k] === null);
+    if (i === (open < 0 ? all.length - 1 : open) && this.at[i] === null) return 'next';
+    return !all[i].ticks ? 'plain' : this.at[i] !== null ? 'done' : 'open';
   }
   show() {
     this.panel.querySelector('ol').replaceChildren(...this.words.instructions.map((one, i) => {
@@ -50,13 +51,14 @@ export class Lesson {
       if (names[state]) { sign.setAttribute('role', 'img'); sign.setAttribute('aria-label', names[state]); }
       row.className = state;
       row.append(sign, Object.assign(document.createElement('span'), { textContent: one.text }));
+      if (state === 'done') row.title = one.text; // shown in one line
       return row;
     }));
     this.panel.querySelector('li.next')?.scrollIntoView({ block: 'nearest' });
   }
   // What was expected of the instructions, and what happened: [sign, words] each.
   account() {
-    return this.words.instructions.map((one, i) => [this.state(i), one.text, this.at[i]]).filter(([state]) => state !== 'plain')
+    return this.words.instructions.map((one, i) => [this.state(i), one.text, this.at[i], one.ticks]).filter(([, , , ticks]) => ticks)
       .map(([state, text, second]) => [state === 'done' ? '✔' : '–', `${text} ${state === 'done' ? `(done at ${clock(second)})` : '(did not happen)'}`]);
   }
 }

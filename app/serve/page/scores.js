@@ -31,7 +31,7 @@ export class Scores {
     this.add('h2', missed.length ? 'Not yet' : 'Passed');
     for (const i of missed) {
       const item = welcome.scoring.items[i], step = item.kind === 'step';
-      const came = items[i].holds === null ? 'cannot be told' : step ? 'not done' : 'happened';
+      const came = step ? 'not done' : items[i].holds === null ? 'cannot be told' : 'happened';
       this.add('p', `${item.what}: ${came}${items[i].value ? ` (${items[i].value})` : ''}. ${step ? 'Expected' : 'This counts'}: ${item.when}.`).className = 'missed';
     }
     if (missed.length) this.add('p', 'To mend it, choose an earlier second on the bar below and press Go on; or begin anew.').className = 'next';
@@ -55,25 +55,27 @@ export class Scores {
       const score = items?.[i], row = document.createElement('li');
       const holds = score ? score.holds : null;
       // An error that has not come yet, and a step that may still come, are open until the end.
-      const open = holds === null || (!ended && (item.kind === 'step' ? !holds : holds));
-      row.className = open ? 'open' : holds ? 'yes' : 'no';
-      const sign = open ? '○' : holds ? '✔' : item.kind === 'step' ? '–' : '✖';
+      const missed = ended && item.kind === 'step' && welcome.lesson.needed.includes(i) && !holds; // as the verdict says
+      const open = !missed && (holds === null || (!ended && (item.kind === 'step' ? !holds : holds)));
+      const needed = !welcome.lesson.needed.length || welcome.lesson.needed.includes(i);
+      row.className = open ? 'open' : holds ? 'yes' : needed ? 'no' : 'aside';
+      const sign = open ? '○' : holds ? '✔' : item.kind === 'step' ? '–' : needed ? '✖' : '▲';
       const when = score?.at_s?.length ? score.at_s.slice(0, 3).map(clock).join(' ') + (score.at_s.length > 3 ? ` … ${score.at_s.length} times` : '') : score?.value ?? '';
       const came = open || (item.kind === 'step' && holds) ? '' : item.kind === 'step' ? ': not done' : holds ? ': did not happen' : ': happened';
       const what = open && item.kind !== 'step' ? `Must not happen: ${item.what}` : item.what;
-      for (const words of [sign, what + came, when]) row.append(Object.assign(document.createElement('span'), { textContent: words }));
+      const means = ended && !open && !holds && !needed ? `. This counts: ${item.when}. It may happen in a lesson that is passed` : '';
+      for (const words of [sign, what + came + means, when]) row.append(Object.assign(document.createElement('span'), { textContent: words }));
       row.title = item.when;
       list.append(row);
     });
     if (ended) {
-      this.add('h3', 'numbers of the run');
-      const table = document.createElement('table');
+      const numbers = this.add('details', ''), table = document.createElement('table');
+      numbers.append(Object.assign(document.createElement('summary'), { textContent: 'numbers of the run' }), table);
       for (const metric of ended.metrics) {
         const row = table.insertRow();
         row.insertCell().textContent = metric.name.replaceAll('_', ' ');
         row.insertCell().textContent = metric.words;
       }
-      this.made.push(table);
     }
     this.panel.replaceChildren(...this.made);
   }

@@ -7,10 +7,17 @@ function forceColour(base, newton) {
   return `rgb(255, ${Math.round(211 - 152 * part)}, ${Math.round(77 - 29 * part)})`;
 }
 
+// mm
+function lengthOf(tool) {
+  let sum = 0;
+  for (let i = 4; i < tool.length; i += 4) sum += Math.hypot(tool[i] - tool[i - 4], tool[i + 1] - tool[i - 3], tool[i + 2] - tool[i - 2]);
+  return sum;
+}
+
 export class Truth {
   constructor(canvas) {
     this.canvas = canvas;
-    this.turn = 0.5;
+    this.turn = -0.7; // as from LAO 40: from there the arch lies open
     this.tilt = 0.1;
     this.scale = 2.2; // pixels per mm
     this.follow = true;
@@ -55,12 +62,15 @@ export class Truth {
     this.spheres = floats(3 * count());
     this.draw();
   }
+  // The tip that is followed: of the last tool, but for one that is 15 cm and more behind the deepest (drawn out, or on
+  // its way in).
+  tip() {
+    const tools = this.tools.filter((tool) => tool.length >= 4), long = tools.map(lengthOf), most = Math.max(...long);
+    const tool = tools.findLast((_, i) => long[i] > most - 150);
+    return tool ? Array.from(tool.slice(tool.length - 4, tool.length - 1)) : null;
+  }
   aim() {
-    let tip = null;
-    for (const tool of this.tools) if (tool.length >= 4) {
-      const end = Array.from(tool.slice(tool.length - 4, tool.length - 1));
-      if (!tip || end[1] > tip[1] || this.tools.length > 0) tip = end;
-    }
+    let tip = this.tip();
     if (!tip) tip = [this.spheres[0], this.spheres[1], this.spheres[2]];
     if (!this.middle) this.middle = tip;
     if (this.follow) this.middle = this.middle.map((m, i) => m + 0.15 * (tip[i] - m));

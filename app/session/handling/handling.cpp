@@ -9,7 +9,7 @@ HandlingWatch::~HandlingWatch() = default;
 
 void HandlingWatch::look(const SessionModel& model, const SessionInputs& inputs, const SessionState& state,
                          const SessionReport& report, const EventSink& say) {
-  see(model, inputs, state, report, scene_);
+  see(model, map_, inputs, state, report, scene_);
   errors_->look(map_, scene_, say);
 }
 

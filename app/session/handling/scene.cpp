@@ -31,7 +31,7 @@ void map_way(const VesselIndex& way, HandlingMap& map) {
   const int ascending = way.place("ascending aorta");
   std::size_t count = 0;
   for (const vascular::TreeBranch& branch : way.branches()) count += branch.spheres.size();
-  map.astray_m.assign(count, 0), map.in_coronary_m.assign(count, 0);
+  map.astray_m.assign(count, 0), map.aside.assign(count, 0), map.in_coronary_m.assign(count, 0);
   map.before_root.assign(count, 0), map.in_ventricle.assign(count, 0);
   if (ostia.empty() || ascending < 0) return;
   const double arch_m = arch_ends_m(way, ascending, static_cast<int>(count));
@@ -46,6 +46,7 @@ void map_way(const VesselIndex& way, HandlingMap& map) {
       leads = leads || way.beyond(ostium, entry) || way.beyond(entry, ostium);
       if (way.beyond(s, ostium)) map.in_coronary_m[i] = way.from_access_m(s) - way.from_access_m(ostium);
     }
+    map.aside[i] = !leads;
     if (!leads) map.astray_m[i] = std::max(0.0, way.from_access_m(s) - way.from_access_m(entry));
   }
 }
@@ -149,8 +150,16 @@ double beyond_stent_m(const SessionModel& model, const SessionState& state) {
   return out_m;
 }
 
-void see(const SessionModel& model, const SessionInputs& inputs, const SessionState& state, const SessionReport& report,
-         HandlingScene& x) {
+int tip_branch(const HandlingMap& map, const VesselIndex& way, int sphere, const Eigen::Vector3d& p, double phase,
+               double breath) {
+  const int branch = way.branch(sphere);
+  return map.aside[static_cast<std::size_t>(sphere)] && way.in_parent(sphere, p, phase, breath)
+             ? way.branches()[static_cast<std::size_t>(branch)].parent
+             : branch;
+}
+
+void see(const SessionModel& model, const HandlingMap& map, const SessionInputs& inputs, const SessionState& state,
+         const SessionReport& report, HandlingScene& x) {
   x.time_s = seconds(model, state);
   const double phase = state.blood.heart.phase;
   x.diastasis = heart_rests(state);
@@ -170,6 +179,7 @@ void see(const SessionModel& model, const SessionInputs& inputs, const SessionSt
             .push_N = report.tools[i].push_N};
     if (!tool.in_body) continue;
     tool.sphere = model.vessel->way->locate(tip(model, state, t), phase, breath(model, state));
+    tool.branch = tip_branch(map, *model.vessel->way, tool.sphere, tip(model, state, t), phase, breath(model, state));
     tool.along_m = model.vessel->way->from_access_m(tool.sphere);
     const data::Instrument& instrument = model.tools[i].instrument;
     if (is_catheter(instrument) && x.catheter < 0) x.catheter = t;

@@ -14,6 +14,7 @@ struct HandlingMap {
 
   // (#spheres of the vessel index), m:
   std::vector<double> astray_m;       ///< distance into a branch that leads to neither coronary ostium
+  std::vector<char> aside;            ///< in a branch that leads to neither coronary ostium; all 0 for a mesh
   std::vector<double> in_coronary_m;  ///< distance beyond a coronary ostium
   std::vector<char> before_root;      ///< between the access and the end of the arch; all 0 for a mesh
   std::vector<char> in_ventricle;
@@ -32,6 +33,7 @@ struct HandledTool {
   double feed_m_s = 0, turn_rad_s = 0;  ///< current, of the hand
   double push_N = 0;
   int sphere = -1;     ///< of the vessel index, at its tip
+  int branch = -1;     ///< that its tip is in; at a side branch's mouth still the one which that leaves
   double along_m = 0;  ///< distance of its tip from the access
 };
 
@@ -59,7 +61,12 @@ struct HandlingScene {
 /// not.
 double beyond_stent_m(const SessionModel& model, const SessionState& state);
 
-void see(const SessionModel& model, const SessionInputs& inputs, const SessionState& state, const SessionReport& report,
-         HandlingScene& scene);
+/// The branch that a tip at `p` is in, whose nearest sphere is `sphere`. A side branch begins where its mouth leaves
+/// the wide vessel's lumen: a tip that slides past it along the wall has not entered it.
+int tip_branch(const HandlingMap& map, const VesselIndex& way, int sphere, const Eigen::Vector3d& p, double phase,
+               double breath = 0);
+
+void see(const SessionModel& model, const HandlingMap& map, const SessionInputs& inputs, const SessionState& state,
+         const SessionReport& report, HandlingScene& scene);
 
 }  // namespace ostium::app

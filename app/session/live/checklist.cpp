@@ -8,10 +8,14 @@ namespace ostium::app {
 
 namespace {
 
-/// A script that does nothing, and waits in each step for what an instruction waits for.
+/// A script that does nothing, and waits in each step for what an instruction waits for; `unless` holds what must be
+/// meanwhile.
 data::Script waiting(const std::vector<data::Instruction>& instructions, data::Script script) {
   script.steps.clear();
-  for (const data::Instruction& one : instructions) script.steps.emplace_back().until = one.until;
+  for (const data::Instruction& one : instructions) {
+    data::ScriptStep& step = script.steps.emplace_back();
+    step.until = one.until, step.unless = one.meanwhile;
+  }
   return script;
 }
 
@@ -58,7 +62,11 @@ void Checklist::look(const ScriptedRun& run) {
     looking_.began_s = item.began_s, looking_.began_beats = item.began_beats;
     looking_.began_fed_m = item.began_fed_m, looking_.began_turned_rad = item.began_turned_rad;
     const ConditionEvaluator evaluator(plan_, run.model, run.state, run.report, looking_);
-    item.done = evaluator.first_that_holds(step.until, plan_.until_places[i]) >= 0;
+    const std::vector<int>& places = plan_.unless_places[i];
+    bool meanwhile = true;
+    for (std::size_t k = 0; k < places.size(); ++k) meanwhile &= evaluator.holds(step.unless[k], places[k]);
+    if (!meanwhile) item.began = false;
+    item.done = meanwhile && evaluator.first_that_holds(step.until, plan_.until_places[i]) >= 0;
   }
 }
 

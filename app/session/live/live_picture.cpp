@@ -38,10 +38,13 @@ bool LivePicture::is_due(const Snapshot& now) {
 bool LivePicture::look(const Snapshot& now, bool fresh) {
   const double seen = contrast_at_ < now.signals.size() ? now.signals[contrast_at_] : NAN;
   const bool other = !shows_the_same(settings_, now.picture);
+  // A run that goes back has not been exposed since: the image held, and its dose, are of a time that is given up.
+  const bool gone_back = fresh && now.begun != begun_;
+  if (gone_back) begun_ = now.begun, picture_ = {}, due_ = -1;
   bool is_new = false;
   if (own_) {
     if (!fresh) return false;
-    is_new = !now.paused;
+    is_new = !now.paused || gone_back;
     if (is_new && is_due(now)) {
       const CArmInputs& arm = now.inputs.c_arm;
       own_->set({now.picture.shutters, now.picture.frames_per_s, now.picture.roadmap});

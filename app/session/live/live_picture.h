@@ -50,6 +50,7 @@ class LivePicture {
   int references_ = 0;
   fluoro::DoseMeter dose_;
   bool xray_on_ = false, cine_ = false;
+  int begun_ = 0;    ///< how often the run had gone back
   double due_ = -1;  ///< frames since the beginning, of the last exposure
   PictureSettings settings_;
   std::deque<std::vector<fluoro::Picture>> runs_;  ///< the last ones, the newest in front

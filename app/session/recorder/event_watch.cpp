@@ -143,8 +143,7 @@ void EventWatch::look_at_tools(const SessionModel& model, const SessionReport& r
     before.eased_s = before.wall_force_N > 0.8 * data::wall_force_limit_N ? 0 : before.eased_s + model.step_s();
     if (before.eased_s > data::wall_force_over_s) before.pressed = false;
     if (!handling_looked) continue;
-    const int sphere = handling_.scene().tools[static_cast<std::size_t>(t)].sphere;
-    const int branch = tool.in_body ? model.vessel->way->branch(sphere) : -1;
+    const int branch = tool.in_body ? handling_.scene().tools[static_cast<std::size_t>(t)].branch : -1;
     if (before.branch.comes_to(branch, now, model.step_s())) say(data::EventCode::tip_enters, t, branch);
   }
 }

@@ -98,16 +98,31 @@ VesselIndex::Departure VesselIndex::departure(int sphere, double phase) const {
   return {along, (to - to.dot(along) * along).normalized()};
 }
 
+double VesselIndex::apart_m(const Vector3d& point, const std::vector<vascular::TreeBranch>& all, std::size_t branch,
+                            std::size_t sphere, double breath) const {
+  const vascular::TreeSphere& it = all[branch].spheres[sphere];
+  const bool breathes = breath != 0 && !breath_.empty();
+  const Vector3d from = breathes ? Vector3d(point - breath * breath_[branch][sphere]) : point;
+  return (it.p - from).norm() - it.radius_m;
+}
+
+bool VesselIndex::in_parent(int sphere, const Vector3d& point, double phase, double breath) const {
+  const std::vector<vascular::TreeBranch>& all = frames_[frame_at(phase)].branches;
+  const int parent = all[static_cast<std::size_t>(branch(sphere))].parent;
+  if (parent < 0) return false;
+  const auto b = static_cast<std::size_t>(parent);
+  for (std::size_t s = 0; s < all[b].spheres.size(); ++s)
+    if (apart_m(point, all, b, s, breath) < 0) return true;
+  return false;
+}
+
 int VesselIndex::locate(const Vector3d& point, double phase, double breath) const {
   const std::vector<vascular::TreeBranch>& all = frames_[frame_at(phase)].branches;
   int best = 0, n = 0;
   double nearest = std::numeric_limits<double>::infinity();
-  const bool breathes = breath != 0 && !breath_.empty();
   for (std::size_t b = 0; b < all.size(); ++b)
     for (std::size_t s = 0; s < all[b].spheres.size(); ++s) {
-      const vascular::TreeSphere& sphere = all[b].spheres[s];
-      const Vector3d from = breathes ? Vector3d(point - breath * breath_[b][s]) : point;
-      const double apart = (sphere.p - from).norm() - sphere.radius_m;
+      const double apart = apart_m(point, all, b, s, breath);
       if (apart < nearest && !nodes_[static_cast<std::size_t>(n)].inside_parent) nearest = apart, best = n;
       ++n;
     }

@@ -20,6 +20,8 @@ class VesselIndex {
   /// Index of the sphere that contains a point, or is nearest to it; `phase` in [0, 1), `breath` the depth of breath.
   /// Does not allocate.
   int locate(const Eigen::Vector3d& p, double phase, double breath = 0) const;
+  /// Whether a point lies within the lumen of the branch that the sphere's branch leaves.
+  bool in_parent(int sphere, const Eigen::Vector3d& p, double phase, double breath = 0) const;
   /// Whether `sphere` is `place` or lies beyond it, seen from the access.
   bool beyond(int sphere, int place) const;
   /// How far a sphere lies into side branches of this branch, measured from its centreline, m: 0 on it; -1: not beyond
@@ -55,6 +57,9 @@ class VesselIndex {
     int first = 0, last = 0;  ///< depth-first numbers: [first, last) are this sphere and all beyond
   };
   std::size_t frame_at(double phase) const;
+  /// Distance of a point from a sphere's surface in this frame's branches; negative within it.
+  double apart_m(const Eigen::Vector3d& point, const std::vector<vascular::TreeBranch>& all, std::size_t branch,
+                 std::size_t sphere, double breath) const;
 
   std::vector<vascular::SphereTree> frames_;
   std::vector<std::vector<Eigen::Vector3d>> breath_;

@@ -11,10 +11,11 @@ namespace ostium::data {
 
 struct Instruction {
   std::string text;
-  std::vector<ScriptCondition> until;  ///< it has been done once one of them holds, or once `event` comes
-  std::string event;                   ///< of data/assessment/events.def; empty: none
-  bool in_turn = false;                ///< only after the one before it with a condition
-  int expert_step = -1;                ///< of the lesson's script: how the expert does it; -1: it is not said
+  std::vector<ScriptCondition> until;      ///< it has been done once one of them holds, or once `event` comes
+  std::vector<ScriptCondition> meanwhile;  ///< all of them hold, or what `until` counts begins anew
+  std::string event;                       ///< of data/assessment/events.def; empty: none
+  bool in_turn = false;                    ///< only after the one before it with a condition
+  int expert_step = -1;                    ///< of the lesson's script: how the expert does it; -1: it is not said
   int line = 0;
   bool ticks() const { return !until.empty() || !event.empty(); }
 };

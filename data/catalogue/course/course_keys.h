@@ -38,6 +38,10 @@ inline const JsonObjectKeys instruction = {
     {{"text", true, "what to do, a text", json_type::text()},
      {"until", false, "a list of a script's conditions; it is ticked once one of them holds",
       json_type::list_of(json_type::object("condition"), 1)},
+     {"while", false,
+      "a list of a script's conditions, beside until; where one does not hold, nothing is ticked, and what is counted "
+      "begins anew",
+      json_type::list_of(json_type::object("condition"), 1)},
      {"event", false, "an event of a recording; it is ticked once that has come", json_type::text()},
      {"label", false,
       "a label of the script: hints begin at that step; without until and event it is ticked by what that step "

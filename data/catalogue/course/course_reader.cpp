@@ -72,6 +72,8 @@ Instruction read_instruction(const JsonValue& value, const Script& script, bool 
   const JsonObject object(value, course_keys::instruction);
   out.text = object.text("text");
   out.until = read_conditions(object, "until", script, {});
+  out.meanwhile = read_conditions(object, "while", script, {});
+  if (!out.meanwhile.empty() && out.until.empty()) object["while"].refuse("until beside it");
   if (object.has("event")) out.event = object.text("event");
   if (object.has("label")) out.expert_step = step_at(script, object);
   if (out.expert_step >= 0 && !out.ticks()) out.until = script.steps[static_cast<std::size_t>(out.expert_step)].until;

@@ -3,11 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "app/serve/messages/hints.h"
 #include "app/session/device/box_driver.h"
 #include "app/session/run/branch.h"
 #include "app/session/run/replay.h"
@@ -194,6 +196,21 @@ TEST(Station, GoesBackAndTheBranchReplaysAlone) {
   EXPECT_EQ(b.states(), b.steps() / 1000 + 1);
   EXPECT_EQ(b.signals().size(), b.steps() / 10 * b.signal_columns().size());
   EXPECT_EQ(count(b, data::EventCode::tool_in), 1);
+}
+
+TEST(Hints, SayWhatTheExpertDoesWhereAStepFails) {
+  const data::Script script = data::find_script("aorta-arch-guide");
+  const auto at = [&](const std::string& label) {
+    const auto it = std::find_if(script.steps.begin(), script.steps.end(),
+                                 [&](const data::ScriptStep& step) { return step.label == label; });
+    return static_cast<int>(it - script.steps.begin());
+  };
+  const std::vector<std::string> hints = hints_of(script, at("wire over the arch"), at("guide over the wire"));
+  ASSERT_EQ(hints.size(), 2u) << "the same words again and again help nobody";
+  EXPECT_EQ(hints[0].find("The expert pushes the wire in, 50 mm a second, until the tip of the wire has come to"), 0u);
+  EXPECT_EQ(hints[1],
+            "Where that fails, the expert draws the guide back; draws the wire back; turns the guide, 60° a second "
+            "clockwise; and tries again.");
 }
 
 TEST(Station, HintsAreOnWhatIsNotDoneAndAreRecorded) {

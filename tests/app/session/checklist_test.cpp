@@ -120,6 +120,29 @@ TEST(Checklist, InTurnMeansAfterTheOneBefore) {
   EXPECT_EQ(done[0].step, 1) << "the wire is out now";
 }
 
+/// "For so long, while the curve is right": a guide that sits well for a moment, and then not, has not sat well.
+TEST(Checklist, WhatIsCountedBeginsAnewWhereItDoesNotHold) {
+  const RunSetup setup = tube_setup(in_and_out);
+  ScriptedRun run(setup, tube_vessel());
+  data::Instruction for_0_2_s, longer;
+  for_0_2_s.until = {setup.script.steps[3].until[0]};
+  for_0_2_s.until[0].value = 0.2;
+  for_0_2_s.meanwhile = {setup.script.steps[2].until[0]};  // out
+  longer = for_0_2_s;
+  longer.until[0].value = 0.5;
+  Checklist checklist({for_0_2_s, longer}, setup.script, run.model);
+  const std::vector<SessionEvent> events = played(run, checklist);
+  ASSERT_EQ(ticked(events), std::vector<double>{0}) << "it was never out for half a second";
+  const auto out = std::find_if(events.rbegin(), events.rend(), [](const SessionEvent& e) {
+    return e.code == static_cast<int>(data::EventCode::tool_out);
+  });
+  const auto done = std::find_if(events.begin(), events.end(), [](const SessionEvent& e) {
+    return e.code == static_cast<int>(data::EventCode::instruction_done);
+  });
+  ASSERT_NE(out, events.rend());
+  EXPECT_GE(done->step, out->step + 150) << "not from the beginning, when it was out for a moment";
+}
+
 TEST(Checklist, APlaceThatThereIsNotIsRefusedWithTheCoursesLine) {
   const RunSetup setup = tube_setup(in_and_out);
   const ScriptedRun run(setup, tube_vessel());

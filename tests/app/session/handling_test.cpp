@@ -315,6 +315,22 @@ TEST(Handling, ACasesMapKnowsItsWaysAndItsLesion) {
   EXPECT_NEAR(map.astray_m[at("left subclavian+30")], 30e-3, 3e-3);
   for (const char* place : {"diaphragm", "arch", "ascending aorta", "valve", "RCA+20", "LM", "LAD+20"})
     EXPECT_EQ(map.astray_m[at(place)], 0) << place;
+  // Where a wire slid along the arch's outer wall past a mouth, the branch's sphere was nearer than the aorta's.
+  const auto branch_at = [&](const Eigen::Vector3d& p) {
+    return way.branches()[static_cast<std::size_t>(tip_branch(map, way, way.locate(p, 0), p, 0))].name;
+  };
+  const int mouth = way.entry("right subclavian");
+  int at_wall = 0;
+  for (int k = 0; k < 7 * 7 * 7; ++k) {
+    const Eigen::Vector3d p = way.p(mouth, 0) + 2e-3 * Eigen::Vector3d(k % 7 - 3, k / 7 % 7 - 3, k / 49 - 3);
+    const int sphere = way.locate(p, 0);
+    if (way.branch(sphere) != way.branch(mouth) || !way.in_parent(sphere, p, 0)) continue;
+    ++at_wall;
+    EXPECT_EQ(branch_at(p), "aorta");
+  }
+  EXPECT_GT(at_wall, 0) << "points of the aorta's lumen that are nearer to a sphere of the branch";
+  EXPECT_EQ(branch_at(way.p(way.place("right subclavian+20"), 0)), "right subclavian");
+  EXPECT_EQ(branch_at(way.p(way.entry("RCA"), 0)), "RCA") << "a coronary begins at its mouth";
   EXPECT_TRUE(map.before_root[at("arch")]);
   EXPECT_FALSE(map.before_root[at("ascending aorta")]);
   EXPECT_FALSE(map.before_root[at("valve")]);

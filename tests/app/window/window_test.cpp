@@ -244,6 +244,10 @@ TEST(LivePicture, FollowsThePedalsWhoeverPressesThem) {
     for (std::size_t i = 0; i < last.size(); ++i) others += now[i] != last[i];
     EXPECT_GT(others, 0u) << "the sign of radiation goes out";
     EXPECT_LT(others, last.size() / 6) << "last image hold";
+    p.hand.restart(p.run);
+    ASSERT_TRUE(p.hand.snapshots(Seat::window).update());
+    live.look(p.hand.snapshots(Seat::window).front(), true);
+    EXPECT_TRUE(live.picture().grey.empty()) << "the run has gone back: that image is of a time given up";
   }
 }
 

@@ -182,6 +182,7 @@ TEST(Metrics, OfARecordMadeByHand) {
   EXPECT_NEAR(value(r, "hand_path_length_mm"), 300, 1e-6);
   EXPECT_NEAR(value(r, "tip_path_length_mm"), 300, 10) << "in moves of 5 mm";
   EXPECT_NEAR(value(r, "tip_reached_mm"), 200, 0.5);
+  EXPECT_NEAR(value(r, "all_tips_reached_mm"), 200, 0.5) << "there is one";
   EXPECT_NEAR(value(r, "wall_force_max_N"), 2, 1e-6);
   EXPECT_NEAR(value(r, "wall_force_mean_N"), 0.4, 0.01) << "a low pass moves an area, but keeps it";
   EXPECT_NEAR(value(r, "wall_force_impulse_N_s"), 4, 0.1);

@@ -63,6 +63,10 @@ TEST(ScoreList, IsTickedByWhatTheRecordSays) {
   EXPECT_EQ(no[1].holds, Ticked::no);
   EXPECT_EQ(no[1].at_s, (std::vector<double>{5.0, 7.0})) << "every time";
 
+  ScoreList both = list;
+  both.items[1].kind = ScoreKind::step, both.items[1].check->least = 2, both.items[1].check->most = {};
+  EXPECT_EQ(score(both, bad, metrics_of(bad))[1].at_s, std::vector<double>{7.0}) << "done with the second of two";
+
   const RunRecord none = record_with({});
   EXPECT_EQ(score(list, none, metrics_of(none))[0].holds, Ticked::not_seen) << "nothing was inflated";
 }

@@ -53,6 +53,8 @@ TEST(Course, AFaultyOneNamesFileLineKeyAndCure) {
       {"\"push\"", R"({ "text": "push", "event": "tool_in", "in_turn": true })",
        "lessons[0].instructions[0].in_turn is true; expected false"},
       {"\"push\"", R"({ "text": "push", "when": "now" })", "when"},
+      {"\"push\"", R"({ "text": "push", "event": "tool_in", "while": [{ "out": true }] })",
+       "mine.json:4: lessons[0].instructions[0].while is [{...}]; expected until beside it"},
       {"rca-mid-focal", "rca-nowhere", "mine.json:5: lessons[0].case is \"rca-nowhere\": there is no case"},
       {"iliac-wire", "no-script", "mine.json:5: lessons[0].script is \"no-script\": there is no script"},
       {"\"name\": \"one\"", "\"name\": \"../one\"", "mine.json:4: lessons[0].name"},
@@ -84,7 +86,7 @@ TEST(Course, AnInstructionIsTickedByConditionsAnEventOrTheExpertsStep) {
   std::string text = good;
   text.replace(text.find("\"push\""), 6, R"("look", { "text": "in", "until": [{ "inserted_mm": 50 }] },
     { "text": "seen", "event": "fluoroscopy_on" }, { "text": "up", "label": "up" },
-    { "text": "out", "label": "out", "until": [{ "out": true }], "in_turn": true })");
+    { "text": "out", "label": "out", "until": [{ "out": true }], "while": [{ "trace": "absent" }], "in_turn": true })");
   text.replace(text.find("iliac-wire"), 10, "wire-in-and-out");
   const std::vector<Instruction> all = read_course("mine.json", text).lessons[0].instructions;
   ASSERT_EQ(all.size(), 5u);
@@ -96,6 +98,7 @@ TEST(Course, AnInstructionIsTickedByConditionsAnEventOrTheExpertsStep) {
   EXPECT_EQ(all[3].expert_step, 2);
   EXPECT_TRUE(all[4].in_turn);
   EXPECT_EQ(all[4].until.size(), 1u);
+  EXPECT_EQ(all[4].meanwhile.at(0).kind, ConditionKind::trace);
 }
 
 /// Not only when the lesson begins.
