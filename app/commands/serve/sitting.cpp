@@ -57,7 +57,7 @@ Sitting::Sitting(const ServeArguments& a, const RunSetup& setup, ScriptedRun& ru
   if (!a.resumes) return;
   branches_ = last_branch(a.folder);
   stand_at(*a.resumes);
-  station_.recall(events_before(*a.resumes));
+  station_.recall(events_before(*a.resumes), recording_);
 }
 
 std::vector<SessionEvent> Sitting::events_before(const Continued& from) const {
@@ -113,7 +113,7 @@ Wish Sitting::play_once() {
   options.dosimeter = dosimeter_;
   options.stop = &interrupted;
   last_ = play(run_, setup_, options);
-  station_.write_notes(a_.folder);  // however it ended
+  station_.keep_notes();  // however it ended
   if (!last_.problem.empty()) station_.tell_problem("the recording ends early: " + last_.problem);
   const Wish wish = station_.wish();
   if (wish.kind != Wish::Kind::none || interrupted) return wish;
