@@ -99,6 +99,10 @@ class Seated {
 
 int run(const ServeArguments& a) {
   const Served served = serve(a);
+  if (!served.problem.empty()) {
+    fmt::print(stderr, "ostium serve: {}\n", served.problem);
+    return 1;
+  }
   return served.report.outcome == "success" || served.report.outcome == "ended" ? 0 : 1;
 }
 
