@@ -124,7 +124,7 @@ void add_noise(CurveExplanation& x) {
 }
 
 void add_warnings(CurveExplanation& x) {
-  x.warnings = copies_in_words(measured_numbers(x.set->runs()));
+  for (std::string& copy : copies_in_words(measured_numbers(x.set->runs()))) x.warnings.push_back(std::move(copy));
   if (x.set->free().empty())
     x.warnings.emplace_back(
         "No stiffness makes a difference to what was measured: nothing comes where it is bent or turned; is a unit or "
