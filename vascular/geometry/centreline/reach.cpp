@@ -33,6 +33,14 @@ Unreached unreached(const Mesh& lumen, const SphereTree& tree) {
     if (by_m < nearest_m) nearest_m = by_m, out.p = lumen.vertices[v];
   }
   if (looked_at) out.share = static_cast<double>(beyond) / static_cast<double>(looked_at);
+  double near_m = std::numeric_limits<double>::infinity();
+  for (const TreeBranch& branch : tree.branches)
+    for (std::size_t i = 0; i < branch.spheres.size() && beyond > 0; ++i) {
+      const double d = (branch.spheres[i].p - out.p).norm();
+      if (d >= near_m) continue;
+      const bool ends = i + 1 == branch.spheres.size();
+      near_m = d, out.branch = ends ? branch.name : "", out.after_m = ends ? branch.spheres[i].s_m : 0;
+    }
   return out;
 }
 
