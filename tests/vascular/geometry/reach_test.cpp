@@ -39,7 +39,6 @@ TEST(Reach, ALineThatEndsHalfwayLeavesTheRest) {
   EXPECT_NEAR(half.p.z(), length_m / 2 + own_m, 1e-3);
   EXPECT_GT(half.share, unreached_matters);
   EXPECT_EQ(half.branch, "RCA") << "is cut short there";
-  EXPECT_NEAR(half.after_m, length_m / 2, 1e-3);
   EXPECT_EQ(unreached(rings(), {}).share, 1);
 }
 
