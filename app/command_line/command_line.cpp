@@ -19,6 +19,7 @@
 #include <type_traits>
 
 #include "app/command_line/interrupt.h"
+#include "data/formats/controls.h"
 #include "data/formats/decimal.h"
 #include "data/formats/load_error.h"
 #include "data/formats/paths.h"
@@ -61,13 +62,14 @@ void check_number(CLI::Option& option) {
 }
 
 /// An empty one is mostly a shell's variable that is not set: taken as not given, a run would be kept nowhere. What is
-/// no UTF-8 could not be written into JSON, hours later.
+/// no UTF-8 could not be written into JSON, hours later. Names are printed, and told to browsers.
 template <class Value>
 void check_text(CLI::Option& option) {
   if constexpr (std::is_same_v<Value, std::string> || std::is_same_v<Value, std::vector<std::string>>)
     option.check(CLI::Validator(
         [](const std::string& text) -> std::string {
           if (text.empty()) return "it is empty";
+          if (data::has_control(text)) return "it holds a control character";
           try {
             (void)nlohmann::json(text).dump();
           } catch (const nlohmann::json::exception&) {
@@ -221,11 +223,7 @@ int with_output_checked(int code) {
 }
 
 /// Names and words of files without what moves a terminal's cursor.
-std::string shown(std::string words) {
-  for (char& c : words)
-    if ((static_cast<unsigned char>(c) < ' ' && c != '\n' && c != '\t') || c == 0x7f) c = '?';
-  return words;
-}
+std::string shown(const std::string& words) { return data::without_controls(words, "\n\t"); }
 
 /// (CLI11's own way says it all over the help.)
 bool are_apart(const OptionRules& rules) {

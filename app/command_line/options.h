@@ -49,8 +49,8 @@ class Options {
   Options(CLI::App& app, OptionRules& rules) : app_(app), rules_(rules) {}
 
   /// `names`: "--units", "-o,--out", or "mesh" for a positional argument. `value` keeps its value if the option is not
-  /// given. Texts that are given are not empty, and UTF-8. For text, int, double, std::uint64_t, an optional int or
-  /// double, or a vector of texts or doubles.
+  /// given. Texts that are given are not empty, and UTF-8 without control characters. For text, int, double,
+  /// std::uint64_t, an optional int or double, or a vector of texts or doubles.
   template <class Value>
   Option add(const std::string& names, Value& value, const std::string& help);
   void flag(const std::string& names, bool& value, const std::string& help);

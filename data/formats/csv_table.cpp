@@ -115,6 +115,14 @@ std::vector<CsvRow> load_csv(const std::string& file, const std::vector<std::str
   return table.rows;
 }
 
+std::string doubt_of_end(const std::string& file) {
+  const std::string text = text_of(file, "of numbers");
+  if (text.empty() || text.back() == '\n') return "";
+  return fmt::format(
+      "{}:{}: the last line has no end: its last number may have been cut; if it is whole, end the line.", file,
+      1 + std::count(text.begin(), text.end(), '\n'));
+}
+
 double csv_number(const std::string& file, const CsvRow& row, const std::string& column, const std::string& field) {
   if (const std::optional<double> value = decimal(field)) return *value;
   throw LoadError(fmt::format("{}:{}: {} is \"{}\"; expected a number, with a point before its decimals", file,

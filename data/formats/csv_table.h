@@ -23,6 +23,9 @@ CsvTable load_csv(const std::string& file, const std::string& expected);
 /// The rows below the header, which names `columns` in any order, and no others. Throws LoadError with file and line.
 std::vector<CsvRow> load_csv(const std::string& file, const std::vector<std::string>& columns);
 
+/// A word of doubt about a table whose last line has no end: cut within a number, it would still be read. Else empty.
+std::string doubt_of_end(const std::string& file);
+
 /// A field as a finite number, or LoadError with file, line and column.
 double csv_number(const std::string& file, const CsvRow& row, const std::string& column, const std::string& field);
 

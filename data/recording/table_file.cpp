@@ -104,7 +104,7 @@ struct TableFile::Handle {
     if (!ok) throw LoadError(complaint(what));
   }
   void require_written(bool ok, const std::string& what) const {
-    if (!ok) throw WriteError(complaint(what + "; is the disk full?"));
+    if (!ok) throw WriteError(path + ": " + what + "; is the disk full?");  // HDF5's own words are of its inside
   }
   hid_t table(const std::string& name) const {
     const hid_t set = H5Dopen2(id, name.c_str(), H5P_DEFAULT);

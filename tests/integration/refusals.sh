@@ -140,8 +140,12 @@ cannot explain bend --write-instrument folder.png
 expect 1 "/dev/full: cannot be written" "$ostium" sweep rca-mid-focal --script iliac-wire --seconds 0.05 -o /dev/full
 refused "keeps nothing" sweep rca-mid-focal --script iliac-wire --seconds 0.05 -o /dev/full --part 1/2
 [[ ! -e /dev/full.part && ! -e /dev/full.part-1-of-2 ]]
-# What names a file has does not reach the terminal as it is.
-expect 3 "no-[?][[]2Jsuch.stl" "$ostium" check $'no-\x1b[2Jsuch.stl'
+# What names a file has does not reach the terminal as it is: C0, DEL, and C1, which is two bytes of UTF-8.
+for name in $'no-\x1b[2Jsuch.stl' $'no-\xc2\x9b2Jsuch.stl' $'no-\nsuch.stl' $'no-\x7fsuch.stl'; do
+  expect 2 "holds a control character" "$ostium" check "$name"
+  expect 2 "holds a control character" "$ostium" run rca-mid-focal --seconds 0.1 --out "$name"
+done
+OSTIUM_DATA=$'/no-\xc2\x9bwhere' expect 3 "/no-[?]where" "$ostium" scripts
 
 expect 1 "limited-frame.png: cannot be written .File too large" bash -c 'ulimit -f 1; exec "$@"' limited "$ostium" \
   frame --pixels 128 --frames 1 -o limited-frame.png

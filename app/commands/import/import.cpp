@@ -319,11 +319,10 @@ class Import {
         rest.share > vascular::unreached_matters) {
       const Eigen::Vector3d p = rest.p / mm;
       made_.found.notes.push_back(fmt::format(
-          "{:.0f} % of the lumen's wall has no centreline, so nothing gets there, and the vessel that leads there is "
-          "cut "
-          "short: it hangs on by a narrowing finer than the grid, near {:.1f} {:.1f} {:.1f} mm of the patient frame; "
-          "{}",
-          100 * rest.share, p.x(), p.y(), p.z(),
+          "{:.0f} % of the lumen's wall has no centreline, so nothing gets there, and {}: it hangs on by a narrowing "
+          "finer than the grid, near {:.1f} {:.1f} {:.1f} mm of the patient frame; {}",
+          100 * rest.share, (rest.branch.empty() ? "the vessel that leads there" : rest.branch) + " is cut short",
+          p.x(), p.y(), p.z(),
           made_.frames.empty() ? "a finer --voxel may find the way"
                                : "imported alone, without --sequence, a frame is made anew on a finer grid"));
     }

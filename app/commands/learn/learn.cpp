@@ -115,9 +115,10 @@ int run(const Arguments& a) {
   Ask first;
   if (opens)
     first = {Ask::Kind::lesson, place_of(course, progress, a.lesson), a.show ? Ask::How::shown : Ask::How::go_on};
-  else if (const std::string open = progress.open_lesson(); !open.empty())
-    first = {Ask::Kind::lesson, place_of(course, progress, open), Ask::How::go_on};
-  return Schooling(course, lessons, progress).attend(static_cast<std::uint16_t>(a.port), first);
+  else
+    for (std::size_t i = 0; i < course.lessons.size() && first.kind == Ask::Kind::none; ++i)
+      if (progress.is_open(course.lessons[i].name)) first = {Ask::Kind::lesson, i, Ask::How::go_on};
+  return Schooling(course, lessons, progress).attend(static_cast<std::uint16_t>(a.port), first, opens);
 }
 
 }  // namespace

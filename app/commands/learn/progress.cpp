@@ -21,9 +21,12 @@ bool is_attempt(const Json& one) {
   const auto is = [&](const char* key, bool (Json::*right)() const noexcept) {
     return !one.contains(key) || (one[key].*right)();
   };
-  return one.is_object() && one.contains("done") && one["done"].is_boolean() &&
-         is("attempt", &Json::is_number_unsigned) && is("open", &Json::is_boolean) && is("ended", &Json::is_boolean) &&
-         is("seconds", &Json::is_number) && is("hints_asked", &Json::is_number_unsigned) &&
+  const auto counts = [&](const char* key) {
+    return !one.contains(key) || (one[key].is_number_unsigned() && one[key].get<std::uint64_t>() < 1'000'000);
+  };
+  return one.is_object() && one.contains("done") && one["done"].is_boolean() && counts("attempt") &&
+         is("open", &Json::is_boolean) && is("ended", &Json::is_boolean) && is("seconds", &Json::is_number) &&
+         counts("hints_asked") &&
          (!one.contains("missed") || (one["missed"].is_array() &&
                                       std::ranges::all_of(one["missed"], [](const Json& m) { return m.is_string(); })));
 }
@@ -62,10 +65,9 @@ bool Progress::done(const std::string& lesson) const {
   return std::ranges::any_of(attempts(lesson), [](const Json& one) { return one["done"].get<bool>(); });
 }
 
-std::string Progress::open_lesson() const {
-  for (const auto& [lesson, attempts] : all_.items())
-    if (!attempts.empty() && attempts.back().value("open", false)) return lesson;
-  return "";
+bool Progress::is_open(const std::string& lesson) const {
+  const Json& all = attempts(lesson);
+  return !all.empty() && all.back().value("open", false);
 }
 
 std::optional<Progress::Unfinished> Progress::unfinished(const std::string& lesson) const {

@@ -22,8 +22,7 @@ class Progress {
   std::filesystem::path folder_of(const std::string& lesson, std::size_t number) const;
   const Json& attempts(const std::string& lesson) const;  ///< a list
   bool done(const std::string& lesson) const;
-  /// The lesson that was open when the program ended; empty: none was.
-  std::string open_lesson() const;
+  bool is_open(const std::string& lesson) const;  ///< it was when the program ended
 
   /// The last attempt, and where it can go on; none where it is done, or nothing was recorded.
   struct Unfinished {

@@ -8,6 +8,7 @@
 #include "app/commands/run/drivers.h"
 #include "app/serve/messages/hints.h"
 #include "data/formats/load_error.h"
+#include "data/formats/write_file.h"
 
 namespace ostium::app {
 
@@ -83,7 +84,7 @@ Progress::Verdict Schooling::verdict(std::size_t place, const Served& served) co
 
 CourseBoard Schooling::board(std::optional<std::size_t> at) const {
   CourseBoard board;
-  board.title = course_.title, board.note = course_.note, board.at = at;
+  board.title = course_.title, board.note = course_.note, board.problem = problem_, board.at = at;
   bool before = true;
   board.next = course_.lessons.size();
   for (std::size_t i = 0; i < course_.lessons.size(); ++i) {
@@ -106,6 +107,21 @@ CourseBoard Schooling::board(std::optional<std::size_t> at) const {
   return board;
 }
 
+void Schooling::tell_problem(const std::string& what) {
+  problem_ = what;
+  fmt::print(stderr, "ostium learn: {}\n", what);
+}
+
+/// Of the progress. What cannot be written is written with the next change.
+void Schooling::kept(const std::function<void()>& change) {
+  try {
+    change();
+    problem_.clear();
+  } catch (const data::WriteError& error) {
+    tell_problem(std::string("what was done is not kept: ") + error.what());
+  }
+}
+
 /// An attempt that was left or cut off goes on, unless a new one is asked for, or it cannot.
 void Schooling::attempt(ServeArguments& serving, std::size_t place, const Ask& ask) {
   const data::Lesson& lesson = course_.lessons[place];
@@ -117,9 +133,10 @@ void Schooling::attempt(ServeArguments& serving, std::size_t place, const Ask& a
   if (unfinished) serving.resumes = unfinished->from;
   Classroom& room = *serving.classroom;
   serving.ended = [&, place, number](const Served& served) {
-    progress_.note(lesson.name, number, verdict(place, served));
+    kept([&] { progress_.note(lesson.name, number, verdict(place, served)); });
     room.show(board(place));
     tell(lessons_[place], served);
+    if (!problem_.empty()) throw data::WriteError(problem_);
   };
   progress_.begin(lesson.name, number);
   try {
@@ -127,16 +144,16 @@ void Schooling::attempt(ServeArguments& serving, std::size_t place, const Ask& a
     std::fflush(stdout);
     serve(serving);
   } catch (const data::LoadError& error) {
-    progress_.leave(lesson.name, number);  // or the next start would come back to what cannot be opened
+    kept([&] { progress_.leave(lesson.name, number); });  // or the next start would come back to it
     if (!unfinished) throw;
     fmt::print(stderr, "{}\nostium: attempt {} cannot go on; a new one begins\n", error.what(), number);
     serving.resumes.reset();
     return attempt(serving, place, {Ask::Kind::lesson, place, Ask::How::afresh});
   } catch (...) {
-    progress_.leave(lesson.name, number);
+    kept([&] { progress_.leave(lesson.name, number); });
     throw;
   }
-  if (!interrupted) progress_.leave(lesson.name, number);
+  if (!interrupted) kept([&] { progress_.leave(lesson.name, number); });
 }
 
 void Schooling::open(Classroom& room, const Ask& ask) {
@@ -148,7 +165,7 @@ void Schooling::open(Classroom& room, const Ask& ask) {
   serve(serving);
 }
 
-int Schooling::attend(std::uint16_t port, const Ask& first) {
+int Schooling::attend(std::uint16_t port, const Ask& first, bool required) {
   Classroom room("127.0.0.1", port);
   room.show(board({}));
   stop_on_signals();
@@ -160,7 +177,14 @@ int Schooling::attend(std::uint16_t port, const Ask& first) {
       CourseBoard opening = board(ask.lesson);
       opening.opening = true;
       room.show(opening);
-      open(room, ask);
+      problem_.clear();
+      try {
+        open(room, ask);
+      } catch (const std::runtime_error& error) {  // LoadError, WriteError, MeshError
+        if (required) throw;
+        tell_problem(fmt::format("{}: {}", course_.lessons[ask.lesson].title, error.what()));
+      }
+      required = false;
       ask = room.take();
     } else {
       room.show(board({}));

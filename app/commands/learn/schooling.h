@@ -19,11 +19,14 @@ class Schooling {
       : course_(course), lessons_(lessons), progress_(progress) {}
 
   /// Until the learner closes the course, or the program is asked to end. `first`: what is opened at once.
-  int attend(std::uint16_t port, const Ask& first);
+  /// `required`: throws why it cannot be opened; else that is told on the page, as it is of later ones.
+  int attend(std::uint16_t port, const Ask& first, bool required);
 
  private:
   CourseBoard board(std::optional<std::size_t> at) const;
   void open(Classroom& room, const Ask& ask);
+  void tell_problem(const std::string& what);
+  void kept(const std::function<void()>& change);
   void attempt(ServeArguments& serving, std::size_t place, const Ask& ask);
   ServeArguments serving_of(std::size_t place) const;
   Progress::Verdict verdict(std::size_t place, const Served& served) const;
@@ -31,6 +34,7 @@ class Schooling {
   const data::Course& course_;
   const std::vector<CheckedLesson>& lessons_;
   Progress& progress_;
+  std::string problem_;  ///< of what was done last
 };
 
 }  // namespace ostium::app

@@ -71,6 +71,7 @@ Drivers::Drivers(const RunArguments& a, BoxRun* device, ScriptedRun& run) {
     settings.port = static_cast<std::uint16_t>(*a.serve);
     settings.has_pedals = has_pedals(a, device, run.plan.script);
     settings.renderer = renderer_named(a.renderer);
+    settings.folder = a.folder;
     station.emplace(run, *hand, data::find_score_list("pci-elective"), settings);
     tell_links(station->trainer_link(), station->viewer_link(), false);
   }

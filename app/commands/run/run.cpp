@@ -146,7 +146,7 @@ int run_script(const RunArguments& a) {
   Drivers drivers(a, device.get(), run);
   if (drivers.station) options.recorder.heard = drivers.station->ear(), options.real = true;
   const PlayReport report = play_with(drivers, a, device.get(), run, setup, options);
-  if (drivers.station && !a.folder.empty()) drivers.station->write_notes(a.folder);
+  if (drivers.station) drivers.station->keep_notes();
   const std::string film_problem = drivers.film ? drivers.film->finish() : "";
   show_progress("");
   const bool recorded = options.recorder.mode != RecordMode::none;

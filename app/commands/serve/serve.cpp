@@ -77,7 +77,7 @@ std::string script_for(const std::string& vessel) {
 StationSettings settings_of(const ServeArguments& a) {
   StationSettings settings;
   settings.address = a.address, settings.port = static_cast<std::uint16_t>(a.port), settings.goes_back = true;
-  settings.lesson = a.lesson;
+  settings.lesson = a.lesson, settings.folder = a.folder;
   if (a.classroom) settings.server = &a.classroom->server(), settings.viewer_token = a.classroom->viewer_token();
   return settings;
 }
@@ -99,6 +99,10 @@ class Seated {
 
 int run(const ServeArguments& a) {
   const Served served = serve(a);
+  if (!served.problem.empty()) {
+    fmt::print(stderr, "ostium serve: {}\n", served.problem);
+    return 1;
+  }
   return served.report.outcome == "success" || served.report.outcome == "ended" ? 0 : 1;
 }
 

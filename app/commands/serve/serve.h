@@ -28,6 +28,7 @@ struct ServeArguments {
 struct Served {
   PlayReport report;                ///< of the last branch
   std::vector<data::Score> scores;  ///< of it; empty: it did not come to its end
+  std::string problem = {};         ///< why not all of it could be kept; empty: all was
 };
 
 /// Prints the links, unless in a classroom; returns when the trainer leaves. Throws LoadError or MeshError.

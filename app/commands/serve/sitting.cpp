@@ -57,7 +57,7 @@ Sitting::Sitting(const ServeArguments& a, const RunSetup& setup, ScriptedRun& ru
   if (!a.resumes) return;
   branches_ = last_branch(a.folder);
   stand_at(*a.resumes);
-  station_.recall(events_before(*a.resumes));
+  station_.recall(events_before(*a.resumes), recording_);
 }
 
 std::vector<SessionEvent> Sitting::events_before(const Continued& from) const {
@@ -97,7 +97,23 @@ Served Sitting::play_all() {
     station_.gone_back(wish.second, recording_);
     wish = play_once();
   }
-  return {last_, scores_};
+  return {last_, scores_, problem_};
+}
+
+void Sitting::note_problem(const std::string& what) {
+  problem_ = what;
+  station_.tell_problem(what);
+}
+
+/// What cannot be written is told, and the page stays.
+void Sitting::keep(const std::function<void()>& what) {
+  try {
+    what();
+  } catch (const data::LoadError& error) {
+    note_problem(error.what());
+  } catch (const data::WriteError& error) {
+    note_problem(error.what());
+  }
 }
 
 Wish Sitting::play_once() {
@@ -108,13 +124,16 @@ Wish Sitting::play_once() {
     checklist_.hear(event);
     tell(event);
   };
+  options.recorder.failed = [this](const std::string& why) {
+    station_.tell_problem("from here on nothing is recorded: " + why);
+  };
   options.real = true;
   options.seconds = a_.session.seconds;
   options.dosimeter = dosimeter_;
   options.stop = &interrupted;
   last_ = play(run_, setup_, options);
-  station_.write_notes(a_.folder);  // however it ended
-  if (!last_.problem.empty()) station_.tell_problem("the recording ends early: " + last_.problem);
+  keep([this] { station_.keep_notes(); });  // however it ended
+  if (!last_.problem.empty()) note_problem("the recording ends early: " + last_.problem);
   const Wish wish = station_.wish();
   if (wish.kind != Wish::Kind::none || interrupted) return wish;
   finish(options.recorder.file);
@@ -124,16 +143,16 @@ Wish Sitting::play_once() {
 void Sitting::finish(const std::string& file) {
   scores_ = score(list_, record_of(data::RecordingReader(file), run_.model), last_.metrics);
   station_.ended(last_, scores_);
-  if (a_.ended) a_.ended({last_, scores_});
-  data::write_file((fs::path(a_.folder) / "metrics.json").string(),
-                   metrics_json(setup_.vessel, setup_.seed, last_.outcome, last_.reason, last_.metrics));
+  if (a_.ended) keep([this] { a_.ended({last_, scores_}); });
+  keep([this] {
+    data::write_file((fs::path(a_.folder) / "metrics.json").string(),
+                     metrics_json(setup_.vessel, setup_.seed, last_.outcome, last_.reason, last_.metrics));
+  });
   if (!a_.report) return;
-  try {
+  keep([this] {
     report_folder(a_.folder, run_.model.vessel, recording_, list_);
     station_.reported(data::read_file((fs::path(a_.folder) / "report.html").string()));
-  } catch (const data::LoadError& error) {
-    station_.tell_problem(error.what());
-  }
+  });
 }
 
 }  // namespace ostium::app

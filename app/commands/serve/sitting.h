@@ -19,6 +19,8 @@ class Sitting {
   Wish play_once();
   void stand_at(const Continued& from);
   void finish(const std::string& file);
+  void note_problem(const std::string& what);
+  void keep(const std::function<void()>& what);
   std::vector<SessionEvent> events_before(const Continued& from) const;
 
   const ServeArguments& a_;
@@ -35,6 +37,7 @@ class Sitting {
   std::shared_ptr<EventWatch> watch_;
   PlayReport last_;
   std::vector<data::Score> scores_;
+  std::string problem_;  ///< the last
 };
 
 /// Where the newest recording in the folder of a sitting can go on; none: there is none of a second or more.

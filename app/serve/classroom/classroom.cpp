@@ -36,11 +36,12 @@ std::string message_of(const CourseBoard& board) {
   return Json({{"type", "course"},
                {"title", board.title},
                {"note", board.note},
+               {"problem", board.problem},
                {"lessons", lessons},
                {"next", board.next},
                {"at", board.at ? Json(*board.at) : Json(nullptr)},
                {"opening", board.opening}})
-      .dump();
+      .dump(-1, ' ', false, Json::error_handler_t::replace);  // a problem names files
 }
 
 }  // namespace

@@ -22,6 +22,7 @@ struct CourseBoard {
     bool goes_on = false;  ///< its last attempt can go on
   };
   std::string title, note;
+  std::string problem;  ///< of what was done last; empty: none
   std::vector<Lesson> lessons;
   std::size_t next = 0;           ///< the first that has not been done
   std::optional<std::size_t> at;  ///< the lesson that is open

@@ -65,7 +65,10 @@ export class Course {
     close.id = 'close-course';
     close.disabled = !this.learns;
     close.onclick = () => this.socket.order('close');
-    this.panel.replaceChildren(made('h2', board.title), made('p', `${done} of ${board.lessons.length} lessons passed. Every attempt is kept.`),
+    const problem = made('p', board.problem);
+    problem.setAttribute('role', 'alert');
+    problem.hidden = !board.problem;
+    this.panel.replaceChildren(made('h2', board.title), problem, made('p', `${done} of ${board.lessons.length} lessons passed. Every attempt is kept.`),
       made('ol', '', ...board.lessons.map((_, i) => this.lesson(i))), close, made('p', board.note));
   }
   // Opening takes seconds: the patient is built.

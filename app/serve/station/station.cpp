@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -99,6 +98,7 @@ void Station::follow() {
   auto told_at = std::chrono::steady_clock::now();
   while (!over_) {
     take_events();
+    if (notes_are_new_) keep_notes_or_tell();
     const bool fresh = latest.update();
     const auto clock = std::chrono::steady_clock::now();
     if (!fresh) {
@@ -132,9 +132,10 @@ std::optional<TimelineEntry> Station::take_event(const SessionEvent& event) {
   TimelineEntry moment{static_cast<int>(moments_.size()) + 1, static_cast<double>(event.step) * run_.model.step_s(),
                        kind_of(event), words_of(event, run_.model, run_.plan)};
   if (moment.kind == "mark" && !unplaced_notes_.empty()) {
-    notes_.push_back({moment.second, unplaced_notes_.front()});
+    notes_.push_back({recording_, moment.second, unplaced_notes_.front()});
     moment.words = "mark: " + unplaced_notes_.front();
     unplaced_notes_.erase(unplaced_notes_.begin());
+    notes_are_new_ = true;
   }
   if (moment.words.empty()) return {};
   moments_.push_back(moment);
@@ -159,9 +160,14 @@ void Station::take_events() {
   tell_scores();
 }
 
-void Station::recall(const std::vector<SessionEvent>& events) {
+void Station::recall(const std::vector<SessionEvent>& events, const std::string& recording) {
+  std::vector<Note> notes = read_notes(settings_.folder);
   const std::lock_guard lock(mutex_);
   for (const SessionEvent& event : events) take_event(event);
+  for (TimelineEntry& moment : moments_)
+    for (const Note& note : notes)
+      if (moment.kind == "mark" && moment.second == note.second) moment.words = "mark: " + note.text;
+  notes_ = std::move(notes), recording_ = recording;
 }
 
 /// With the mutex.
@@ -216,8 +222,9 @@ void Station::gone_back(std::size_t second, const std::string& recording) {
     // Numbers go on, so that nothing is taken for something told before.
     for (TimelineEntry& moment : moments_)
       if (moment.second > limit) moment.words.clear();
-    std::erase_if(notes_, [&](const Note& note) { return note.second > limit; });
+    for (const std::string& text : unplaced_notes_) notes_.push_back({recording_, now_s_, text});
     unplaced_notes_.clear();
+    recording_ = recording;
     has_ended_ = false, end_.clear(), report_.clear();
     sticky_.push_back(message);
   }
@@ -256,16 +263,23 @@ std::vector<Note> Station::notes() {
   take_events();
   const std::lock_guard lock(mutex_);
   std::vector<Note> all = notes_;
-  for (const std::string& text : unplaced_notes_) all.push_back({now_s_, text});  // while time stood
+  for (const std::string& text : unplaced_notes_) all.push_back({recording_, now_s_, text});  // while time stood
   return all;
 }
 
-void Station::write_notes(const std::string& folder) {
-  Json all = Json::array();
-  for (const Note& note : notes()) all.push_back({{"second", note.second}, {"note", note.text}});
-  if (!all.empty())
-    data::write_file((std::filesystem::path(folder) / "notes.json").string(),
-                     all.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+void Station::keep_notes() {
+  const std::lock_guard keeping(keeping_);
+  notes_are_new_ = false;
+  if (!settings_.folder.empty()) write_notes(settings_.folder, notes());
+}
+
+/// While the run is on; what fails now is tried again at its end.
+void Station::keep_notes_or_tell() {
+  try {
+    keep_notes();
+  } catch (const data::WriteError& error) {
+    tell_problem(error.what());
+  }
 }
 
 std::vector<std::string> Station::greet(Role role) {
@@ -338,9 +352,11 @@ std::string Station::obey(const std::string& what, const data::JsonValue& messag
   if (what == "mark") {
     const data::JsonValue* text = message.find("text");
     const std::lock_guard lock(mutex_);
-    if (text && text->text.size() > longest_note) return refusal(what, "expected a note of at most 500 bytes");
+    const bool is_text = !text || text->type == data::JsonValue::Type::text;
+    if (!is_text || message.members.size() > (text ? 2 : 1) || (text && text->text.size() > longest_note))
+      return refusal(what, "expected {\"do\": \"mark\"}, with a \"text\" of at most 500 bytes");
     if (notes_.size() + unplaced_notes_.size() >= most_notes) return refusal(what, "there are 500 notes already");
-    if (text && !text->text.empty()) unplaced_notes_.push_back(text->text);
+    if (text && !text->text.empty()) unplaced_notes_.push_back(text->text), notes_are_new_ = true;
     controls.order(ConsoleCommand::mark);
     return "";
   }

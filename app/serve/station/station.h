@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "app/serve/messages/messages.h"
+#include "app/serve/station/notes.h"
 #include "app/session/run/play.h"
 #include "core/base/ring.h"
 
@@ -23,6 +24,7 @@ struct StationSettings {
   int pixels = 512;
   fluoro::Renderer renderer = fluoro::Renderer::scanline;
   LessonWords lesson;
+  std::string folder;        ///< where notes are kept; "": nowhere
   Server* server = nullptr;  ///< of a classroom, which tells this what it hears; null: one of its own
   std::string viewer_token;  ///< of that server
 };
@@ -34,11 +36,6 @@ std::string page_link(const std::string& address, std::uint16_t port, const std:
 struct Wish {
   enum class Kind { none, go_back, leave } kind = Kind::none;
   std::size_t second = 0;
-};
-
-struct Note {
-  double second = 0;
-  std::string text;
 };
 
 class Station : public Listener {
@@ -60,8 +57,9 @@ class Station : public Listener {
   void leave();
 
   // --- of the owner, between two plays
-  /// Before the first: what had come before, in the recording that this run continues.
-  void recall(const std::vector<SessionEvent>& events);
+  /// Before the first: what had come before in the recording that this run continues as another one, with the notes of
+  /// the folder. Throws LoadError.
+  void recall(const std::vector<SessionEvent>& events, const std::string& recording);
   /// What has been asked for since; none: the run came to its own end.
   Wish wish();
   /// Until the trainer asks for something, or `stop`.
@@ -71,9 +69,9 @@ class Station : public Listener {
   void ended(const PlayReport& report, const std::vector<data::Score>& scores);
   void reported(const std::string& html);  ///< the report's page
   void tell_problem(const std::string& what);
-  std::vector<Note> notes();
-  /// Into the folder's notes.json, if there are any. Throws WriteError.
-  void write_notes(const std::string& folder);
+  std::vector<Note> notes();  ///< those whose mark has not come yet at the end
+  /// In the folder, if there is one; while a run is on, the station's thread does so as they come. Throws WriteError.
+  void keep_notes();
 
   // --- Listener, on the server's thread
   std::vector<std::string> greet(Role role) override;
@@ -83,6 +81,7 @@ class Station : public Listener {
  private:
   void follow();
   void take_events();
+  void keep_notes_or_tell();
   void tell_scores();
   void tell_ticks();
   std::optional<TimelineEntry> take_event(const SessionEvent& event);
@@ -104,9 +103,12 @@ class Station : public Listener {
   std::condition_variable asked_;
   std::vector<TimelineEntry> moments_;
   std::vector<SessionEvent> events_;
-  std::vector<Note> notes_;
+  std::vector<Note> notes_;                  ///< of branches that were left, too
   std::vector<std::string> unplaced_notes_;  ///< whose mark has not come yet
-  std::vector<std::string> sticky_;          ///< what those who come later must know: branches, the end
+  std::string recording_ = "run.h5";
+  std::atomic<bool> notes_are_new_{false};
+  std::mutex keeping_;               ///< of the file of notes; taken before the other
+  std::vector<std::string> sticky_;  ///< what those who come later must know: branches, the end
   std::string end_, final_scores_, report_;
   Wish wish_;
   bool has_ended_ = false;

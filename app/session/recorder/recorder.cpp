@@ -232,6 +232,7 @@ void Recorder::take(Slot& slot) {
     writer_->commit(std::move(block));
   } catch (const std::exception& error) {
     problem_ = error.what();
+    if (options_.failed) options_.failed(problem_);
   }
 }
 

@@ -36,6 +36,8 @@ struct RecorderOptions {
   std::shared_ptr<EventWatch> watch = {};   ///< that has seen the seconds before
   /// Told of each event by the thread that steps; must not wait for anything. May be empty.
   std::function<void(const SessionEvent&)> heard = {};
+  /// Told by the thread that writes, once, why nothing more of the run is recorded. May be empty.
+  std::function<void(const std::string&)> failed = {};
 };
 
 class Recorder {

@@ -26,6 +26,13 @@ namespace fs = std::filesystem;
 using units::degree;
 
 void read_view(const JsonObject& object, ScriptStep& step) {
+  const bool angles = object.has("lao_deg") || object.has("cran_deg");
+  if (object.has("view") && angles)
+    object.value().fail(object.value().path() + " says two views; expected view, or lao_deg and cran_deg");
+  if (step.action == ScriptAction::view && !object.has("view") && !angles && !object.has("table_mm") &&
+      !object.has("field_mm"))
+    object.value().fail(object.value().path() +
+                        " moves nothing; expected view, lao_deg and cran_deg, table_mm or field_mm");
   if (object.has("view")) {
     const auto view = fluoro::find_view(object.text("view"));
     if (!view) object.refuse("view");
@@ -78,7 +85,8 @@ void read_complication(const JsonObject& object, ScriptStep& step) {
                         (nowhere ? " has a place; rhythms and reactions have none, and air is in the line"
                                  : ".at is missing; expected a place in a coronary artery"));
   const auto only_of = [&](const char* key, bool own) {
-    if (object.has(key) && !own) object.refuse(key);
+    if (object.has(key) && !own)
+      object[key].fail(fmt::format("{} has no meaning for {}", object[key].path(), object.text("complication")));
     return object.has(key);
   };
   step.size = kind == Provoked::perforation  ? 0.8e-3
@@ -117,7 +125,10 @@ std::vector<int> read_tools(const JsonObject& object, const Script& script) {
   const JsonValue& tool = object["tool"];
   if (tool.type != JsonValue::Type::array) return {tool_called(script, tool)};
   if (tool.items.empty()) object.refuse("tool");
-  for (const JsonValue& one : tool.items) tools.push_back(tool_called(script, one));
+  for (const JsonValue& one : tool.items) {
+    tools.push_back(tool_called(script, one));
+    if (std::count(tools.begin(), tools.end(), tools.back()) > 1) one.fail(one.path() + ": the tool is there twice");
+  }
   return tools;
 }
 
@@ -222,6 +233,9 @@ Script read(JsonValue file, const std::string& text) {
     for (const JsonValue& value : root.list("landmarks")) {
       const JsonObject landmark(value, script_keys::landmark);
       const std::vector<double> mm = landmark.numbers("at_mm", 3);
+      for (const ScriptLandmark& other : script.landmarks)
+        if (other.name == landmark.text("name"))
+          value.fail(value.path() + ".name: there is another landmark of that name");
       script.landmarks.push_back({landmark.text("name"), 1e-3 * Eigen::Vector3d(mm[0], mm[1], mm[2])});
     }
   const std::vector<JsonValue>& steps = root.list("steps");

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <unordered_set>
 
+#include "data/formats/controls.h"
 #include "data/formats/read_file.h"
 
 namespace ostium::data {
@@ -17,7 +18,7 @@ namespace {
 
 constexpr const char* no_control = "holds a control character; expected text as people read it";
 
-/// Text for a message: what would move the cursor or ring is replaced, and no letter of UTF-8 is cut in two.
+/// Text for a message: without control characters, and no letter of UTF-8 is cut in two.
 std::string shown(std::string_view text, std::size_t most) {
   std::string out(text.substr(0, most));
   if (text.size() > most) {
@@ -26,23 +27,10 @@ std::string shown(std::string_view text, std::size_t most) {
     out.resize(begin);
     out += "...";
   }
-  for (char& c : out)
-    if (static_cast<unsigned char>(c) < ' ' || c == 0x7f) c = '?';
-  for (std::size_t i = 0; i + 1 < out.size(); ++i)
-    if (out[i] == '\xc2' && static_cast<unsigned char>(out[i + 1]) < 0xa0) out.replace(i, 2, "?");
-  return out;
+  return without_controls(out);
 }
 
-/// Whether a character of `text` would move a terminal's cursor, change its colours or ring: C0 but for white space,
-/// DEL, or C1, which is two bytes of UTF-8. What files call things is printed by every command.
-bool has_control(std::string_view text) {
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const auto c = static_cast<unsigned char>(text[i]);
-    if ((c < ' ' && c != '\t' && c != '\n' && c != '\r') || c == 0x7f) return true;
-    if (c == 0xc2 && i + 1 < text.size() && static_cast<unsigned char>(text[i + 1]) < 0xa0) return true;
-  }
-  return false;
-}
+constexpr const char* white = "\t\n\r";  // what files call things is printed by every command
 
 /// The parser's words without its prefix ("[...] parse error at line 3, column 5: ") and without what it read last,
 /// which may be long and no UTF-8.
@@ -118,7 +106,7 @@ class Builder {
     using namespace json_limits;
     if (key.size() > key_bytes)
       refuse(fmt::format("a key of {} bytes, \"{}\"", key.size(), shown(key, 40)), key_bytes, "bytes");
-    if (has_control(key)) here().fail(fmt::format("the key \"{}\" {}", shown(key, 40), no_control));
+    if (has_control(key, white)) here().fail(fmt::format("the key \"{}\" {}", shown(key, 40), no_control));
     if (!keys_.back().insert(key).second)
       here().fail(fmt::format("\"{}\" is given twice; expected each key once", child(key).path()));
     if (keys_.back().size() > keys) refuse("an object of more keys", keys, "of them: is a file of another kind here");
@@ -169,7 +157,7 @@ class Builder {
     if (text.size() > json_limits::text_bytes)
       refuse(fmt::format("a text of {} bytes, \"{}\"", text.size(), shown(text, 40)), json_limits::text_bytes, "bytes");
     JsonValue value = child(key_);
-    if (has_control(text)) value.fail(fmt::format("{} \"{}\" {}", value.path(), shown(text, 40), no_control));
+    if (has_control(text, white)) value.fail(fmt::format("{} \"{}\" {}", value.path(), shown(text, 40), no_control));
     value.type = type, value.number = number, value.text = text;
     put(std::move(value));
     return true;

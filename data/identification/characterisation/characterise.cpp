@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "core/base/units.h"
+#include "data/formats/csv_table.h"
 #include "data/identification/characterisation/characterisation_report.h"
 #include "data/identification/curves/curve_report.h"
 #include "data/identification/curves/kinds.h"
@@ -150,6 +151,11 @@ std::string disagreement(const Characterisation& c, const std::string& what, con
 }
 
 void put_into_words(Characterisation& c) {
+  for (const CharacterisedSet& s : c.sets) {
+    for (const std::string& doubt : curves::doubts_of_tables(s.root)) c.text.push_back(doubt);
+    if (const std::string& table = s.shapes.table; !table.empty())
+      if (std::string doubt = doubt_of_end(table); !doubt.empty()) c.text.push_back(std::move(doubt));
+  }
   for (const CharacterisedSet& s : c.sets)
     if (!s.used()) c.text.push_back(fmt::format("{} is not used: {}.", s.name, s.why_unused));
   double measured = 0;

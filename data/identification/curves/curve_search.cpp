@@ -55,18 +55,34 @@ std::vector<std::vector<std::size_t>> combinations(const Set& set, const std::ve
   return out;
 }
 
+/// Mean square of each run's misfit over its noise.
+std::vector<double> mean_squares(const Model& model) {
+  std::vector<double> out;
+  for (const Curves& run : model.standardised()) {
+    double squares = 0, count = 0;
+    for (const Eigen::VectorXd& channel : run)
+      squares += channel.squaredNorm(), count += static_cast<double>(channel.size());
+    out.push_back(squares / std::max(count, 1.0));
+  }
+  return out;
+}
+
 /// Whether a run is much farther off than any other: only noisier it may well be, by the noise of a second instrument.
 bool stands_out(const Model& model, std::size_t run) {
   constexpr double much = 2;
-  const std::vector<Curves> misfits = model.standardised();
-  const auto off = [&](std::size_t r) {
-    double squares = 0, count = 0;
-    for (const Eigen::VectorXd& channel : misfits[r])
-      squares += channel.squaredNorm(), count += static_cast<double>(channel.size());
-    return squares / std::max(count, 1.0);
-  };
-  for (std::size_t r = 0; r < misfits.size(); ++r)
-    if (r != run && off(run) < much * much * off(r)) return false;
+  const std::vector<double> off = mean_squares(model);
+  for (std::size_t r = 0; r < off.size(); ++r)
+    if (r != run && off[run] < much * much * off[r]) return false;
+  return true;
+}
+
+/// Whether a run scatters far less than every other: a unit that makes its numbers vanish beside the noise agrees with
+/// whatever predicts nothing there.
+bool vanishes(const Model& model, std::size_t run) {
+  constexpr double little = 0.2;
+  const std::vector<double> off = mean_squares(model);
+  for (std::size_t r = 0; r < off.size(); ++r)
+    if (r != run && off[run] > little * little * off[r]) return false;
   return true;
 }
 
@@ -233,7 +249,7 @@ void Search::add_faults(std::vector<Candidate>& list, const Candidate& declared)
   for (std::size_t k = 0; k < std::min<std::size_t>(2, runs); ++k)
     for (const Fault& fault : mends_of(root_, without[k].second)) {
       Candidate c = tried(fault);
-      if (c.bic() < declared.bic() - strong) list.push_back(std::move(c));
+      if (c.bic() < declared.bic() - strong && !vanishes(c.model, without[k].second)) list.push_back(std::move(c));
     }
   // A run that is left out counts as if each of its samples had a number of its own, up to a fiftieth.
   Candidate& outlier = outliers[worst];

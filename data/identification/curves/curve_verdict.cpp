@@ -124,7 +124,12 @@ void add_noise(CurveExplanation& x) {
 }
 
 void add_warnings(CurveExplanation& x) {
-  x.warnings = copies_in_words(measured_numbers(x.set->runs()));
+  for (std::string& copy : copies_in_words(measured_numbers(x.set->runs()))) x.warnings.push_back(std::move(copy));
+  if (x.set->free().empty())
+    x.warnings.emplace_back(
+        "No stiffness makes a difference to what was measured: nothing comes where it is bent or turned; is a unit or "
+        "a "
+        "place wrong?");
   for (std::size_t i = 0; i < x.set->free().size() && i < x.best().parameters.size(); ++i) {
     const Fitted& f = x.best().parameters[i];
     const double off = f.parameter.logarithmic ? std::log(f.value / f.parameter.prior) : f.value - f.parameter.prior;

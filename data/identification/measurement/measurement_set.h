@@ -83,6 +83,7 @@ struct DeclaredEffect {
 
 struct MeasurementSet {
   std::string file;
+  std::string table;  ///< of polylines; empty: they are in the file
   std::string title, source;
   std::vector<MeasuredInstrument> instruments;  ///< outermost first
   Eigen::Vector3d gravity_m_s2 = Eigen::Vector3d::Zero();

@@ -120,7 +120,8 @@ MeasurementSet read_projections(const JsonValue& file) {
   for (const Experiment& e : set.experiments)
     if (table && !e.polylines.empty())
       root["polylines_csv"].fail(e.place + ".projections and polylines_csv; expected one of them");
-  if (table) read_table((std::filesystem::path(set.file).parent_path() / root.text("polylines_csv")).string(), set);
+  if (table) set.table = (std::filesystem::path(set.file).parent_path() / root.text("polylines_csv")).string();
+  if (table) read_table(set.table, set);
   for (const Experiment& e : set.experiments)
     if (e.polylines.empty())
       root["experiments"].fail(e.place + " has no polyline; expected one of at least one view" +

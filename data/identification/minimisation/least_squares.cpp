@@ -41,6 +41,12 @@ class Cost : public ceres::CostFunction {
 LeastSquaresResult minimise(const LeastSquares& problem) {
   LeastSquaresResult out;
   out.x = problem.start;
+  if (out.x.size() == 0) {  // Ceres takes no empty block
+    Eigen::VectorXd r;
+    out.converged = problem.evaluate(out.x, r, nullptr);
+    out.cost = r.squaredNorm() / 2;
+    return out;
+  }
   ceres::Problem ceres_problem;
   ceres_problem.AddResidualBlock(new Cost(problem), nullptr, out.x.data());
   for (int i = 0; i < out.x.size(); ++i) {

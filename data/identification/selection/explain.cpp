@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <deque>
 
+#include "data/formats/csv_table.h"
 #include "data/identification/effects/effect_list.h"
 #include "data/identification/estimation/model_fit.h"
 #include "data/identification/forward/setup.h"
@@ -18,6 +19,14 @@
 namespace ostium::data {
 
 namespace {
+
+/// Of what was measured, whatever any model says.
+std::vector<std::string> doubts_of_data(const MeasurementSet& set) {
+  std::vector<std::string> out = copies_in_words(measured_numbers(set));
+  if (std::string doubt = set.table.empty() ? "" : doubt_of_end(set.table); !doubt.empty())
+    out.push_back(std::move(doubt));
+  return out;
+}
 
 /// What every form of an effect holds, as the first holds it: all else is fitted.
 EffectForm held_in_all_forms(const Effect& effect, const MeasurementSet& set, std::optional<int> instrument) {
@@ -239,7 +248,7 @@ Explanation explain_mended(const MeasurementSet& set, const ExplainOptions& opti
 }
 
 Explanation explain_with_library(const MeasurementSet& set, const ExplainOptions& options) {
-  std::vector<std::string> warnings = copies_in_words(measured_numbers(set));
+  std::vector<std::string> warnings = doubts_of_data(set);
   const std::optional<Mended> lengths = mend_lengths(set, warnings);
   Explanation out = explain_mended(lengths ? lengths->set : set, options, true);
   if (lengths && !out.mended) out.mended = std::make_shared<const MeasurementSet>(lengths->set);
@@ -305,7 +314,7 @@ Explanation explain(const MeasurementSet& set, const ExplainOptions& options) {
   if (out.verdict == Verdict::cannot_be_judged) out.next_experiment = repeat_for_noise(set);
   out.signature = out.declared.residual_tests.signature;
   describe_remaining(set, options, out);
-  out.warnings = copies_in_words(measured_numbers(set));
+  out.warnings = doubts_of_data(set);
   if (const std::optional<Mended> lengths = mend_lengths(set, out.warnings))
     for (const DataFault& f : lengths->faults) out.warnings.push_back(f.what + ": " + f.mend + ".");
   warn_of_scales(out.best(), out.warnings);

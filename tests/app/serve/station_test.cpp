@@ -42,7 +42,7 @@ struct Sitting {
         setup(setup_for(hands)),
         run(setup, tube_vessel()),
         hand(run.model, hands, 15),
-        station(run, hand, list(), settings()) {
+        station(run, hand, list(), settings(folder.string())) {
     fs::create_directories(folder);
     run.take_over(&hand);
   }
@@ -51,8 +51,9 @@ struct Sitting {
     fs::remove_all(folder);
   }
   static data::ScoreList list() { return data::find_score_list("pci-elective"); }
-  static StationSettings settings() {
+  static StationSettings settings(const std::string& folder) {
     StationSettings s;
+    s.folder = folder;
     s.goes_back = true, s.pixels = 64;
     s.lesson = {"One", "it is out", {{"push", true, {"first", "second"}}, {"draw", true, {"third"}}}, {0}, ""};
     return s;
@@ -126,7 +127,7 @@ TEST(Station, PausesTakesOverAndTellsWhatHappens) {
   trainer.say(R"({"do":"mark","text":"so weit"})");
   trainer.say(R"({"do":"jump"})");  // the answer to which says that the note has come
   ASSERT_TRUE(trainer.message_with("\"refused\""));
-  s.station.write_notes(s.folder.string());
+  s.station.keep_notes();
   EXPECT_EQ(nlohmann::json::parse(std::ifstream(s.folder / "notes.json")).at(0).at("note"), "so weit")
       << "kept, though no step has taken its mark";
   trainer.say(R"({"do":"pause"})");
@@ -160,6 +161,8 @@ TEST(Station, GoesBackAndTheBranchReplaysAlone) {
   s.hand.controls(Seat::window).order(ConsoleCommand::guide_feed, 1);
   s.play("run.h5");
   ASSERT_TRUE(trainer.message(is_now(2.2), 30000));
+  trainer.say(R"({"do":"mark","text":"of what is left"})");
+  ASSERT_TRUE(trainer.message_with("mark: of what is left"));
   trainer.say(R"({"do":"rewind","values":[50]})");
   EXPECT_TRUE(trainer.message_with("expected a second from 0 to 2"));
   trainer.say(R"({"do":"rewind","values":[1]})");
@@ -180,6 +183,10 @@ TEST(Station, GoesBackAndTheBranchReplaysAlone) {
   s.hand.controls(Seat::window).order(ConsoleCommand::end);
   s.steps.join();
   EXPECT_LT(s.run.state.hands[0].fed_m, before_m - 0.5 * hand_feed_m_s);
+  s.station.keep_notes();
+  const std::vector<Note> notes = read_notes(s.folder.string());
+  ASSERT_EQ(notes.size(), 1u) << "of the recording that was left, too";
+  EXPECT_EQ(notes[0].recording + ": " + notes[0].text, "run.h5: of what is left");
 
   for (const char* name : {"run.h5", "branch-2.h5"}) {
     Replay replay(s.file(name), tube_vessel());
@@ -211,6 +218,30 @@ TEST(Hints, SayWhatTheExpertDoesWhereAStepFails) {
   EXPECT_EQ(hints[1],
             "Where that fails, the expert draws the guide back; draws the wire back; turns the guide, 60° a second "
             "clockwise; and tries again.");
+}
+
+TEST(Station, NotesAreKeptAsTheyComeAndAreThereWhenARunGoesOn) {
+  Sitting s(Hands::seats);
+  write_notes(s.folder.string(), {{"run.h5", 1.5, "before"}, {"run.h5", 1.7, "of a moment that was left"}});
+  s.station.recall({{1500, static_cast<int>(data::EventCode::mark), -1, 0}}, "branch-2.h5");
+  Client trainer(s.station.port());
+  ASSERT_TRUE(trainer.come_in(Sitting::token(s.station.trainer_link())));
+  EXPECT_TRUE(trainer.message_with("mark: before"));
+  trainer.say(R"({"do":"mark","text":5})");
+  EXPECT_TRUE(trainer.message_with("500 bytes"));
+  trainer.say(R"({"do":"mark","note":"x"})");
+  EXPECT_TRUE(trainer.message_with("500 bytes"));
+  trainer.say(R"({"do":"mark","text":"now"})");
+  std::vector<Note> notes;
+  for (int i = 0; i < 500 && notes.size() < 3; ++i) {  // a program that is killed then has it
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    notes = read_notes(s.folder.string());
+  }
+  ASSERT_EQ(notes.size(), 3u);
+  EXPECT_EQ(notes[0].recording + ": " + notes[0].text, "run.h5: before");
+  EXPECT_EQ(notes[2].recording + ": " + notes[2].text, "branch-2.h5: now");
+  std::ofstream(s.folder / "notes.json") << "[{";
+  EXPECT_THROW(read_notes(s.folder.string()), data::LoadError);
 }
 
 TEST(Station, HintsAreOnWhatIsNotDoneAndAreRecorded) {

@@ -28,6 +28,22 @@ TEST(Recording, OfVersion2IsRead) {
   EXPECT_DOUBLE_EQ(older.recording.step_s(), 1e-3);
 }
 
+/// The parser's own words begin with its name and number.
+TEST(Recording, ASetupWithAByte0IsRefusedInWords) {
+  const Folder folder;
+  recorded(folder("run.h5"), RecordMode::full);
+  std::string setup = data::RecordingReader(folder("run.h5")).setup();
+  EXPECT_NO_THROW(setup_from_json("run.h5", setup));
+  setup[setup.find(':')] = '\0';
+  try {
+    setup_from_json("run.h5", setup);
+    FAIL() << "it was read";
+  } catch (const data::LoadError& error) {
+    const std::string words = error.what();
+    EXPECT_TRUE(words.starts_with("run.h5: its setup cannot be read: parse error at line ")) << words;
+  }
+}
+
 /// Replaying gives the same nodes: those in the body, at the steps and with the lengths that the recording says.
 TEST(Recording, HoldsTheNodesOfEachTool) {
   const Folder folder;

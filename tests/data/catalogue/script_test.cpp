@@ -88,6 +88,16 @@ TEST(Script, MistakesAreNamedByLine) {
                {"small.json:7:", "table_mm", "three numbers from -1000 to 1000"});
   expect_words(script_refusal("\"view\": \"spider\"", "\"view\": \"spider\", \"on\": true"),
                {"small.json:7:", "no meaning for \"view\""});
+  expect_words(script_refusal("\"view\": \"spider\"", "\"view\": \"spider\", \"lao_deg\": 3"),
+               {"small.json:7:", "says two views"});
+  expect_words(script_refusal(", \"view\": \"spider\"", ""), {"small.json:7:", "moves nothing"});
+  expect_words(script_refusal("[\"guide\", \"wire\"]", "[\"wire\", \"wire\"]"),
+               {"small.json:10:", "tool[1]", "there twice"});
+  const std::string place = R"({ "name": "here", "at_mm": [0, 0, 0] })";
+  expect_words(script_refusal("\"steps\"", "\"landmarks\": [" + place + ", " + place + "], \"steps\""),
+               {"landmarks[1].name", "another landmark"});
+  expect_words(script_refusal(R"("view", "view": "spider")", R"("provoke", "complication": "VF", "air_mL": 1)"),
+               {"small.json:7:", "air_mL has no meaning for VF"});
   expect_words(script_refusal("\"otherwise\": \"up\"", "\"otherwise\": \"down\""),
                {"small.json:11:", "the label of a step"});
   expect_words(script_refusal("\"tries\": 2", "\"tries\": 0"), {"small.json:11:", "1 to 100"});

@@ -131,6 +131,15 @@ class Tabled : public testing::Test {
   std::string table_;
 };
 
+TEST_F(Tabled, ALastLineWithoutAnEndIsDoubted) {
+  EXPECT_TRUE(curves::doubts_of_tables(read()).empty());
+  table_.resize(table_.size() - 3);  // cut within its last number
+  const CurveExplanation x = curves::explain_curves(read(), {});
+  ASSERT_FALSE(x.warnings.empty());
+  EXPECT_NE(x.warnings[0].find("run 1.csv:"), std::string::npos) << x.warnings[0];
+  EXPECT_NE(x.warnings[0].find("may have been cut"), std::string::npos) << x.warnings[0];
+}
+
 TEST_F(Tabled, AreReadAsTheListsThatTheyStandFor) {
   const auto whole = curves::read_set(parse_json("set.json", made("three_point_bend", "clean", 0, 101).json));
   const auto tabled = curves::read_set(read());

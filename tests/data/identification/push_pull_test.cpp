@@ -4,12 +4,15 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <random>
 
 #include "core/base/units.h"
+#include "data/catalogue/catalogue.h"
 #include "data/identification/curves/curve_explanation.h"
 #include "data/identification/curves/kinds.h"
+#include "data/identification/curves/set/run_table.h"
 #include "tests/data/refusals.h"
 #include "tests/support/sets/push_set.h"
 
@@ -258,6 +261,33 @@ TEST(PushPull, ARunInAnotherUnitIsNamedWithItsMend) {
   ASSERT_EQ(to_string(x.verdict), "effect");
   ASSERT_TRUE(x.best().fault);
   EXPECT_EQ(x.best().fault->id, "unit_error");
+}
+
+/// The template, with what is inserted in centimetres in the runs from `from` to before `to`.
+curves::CurveExplanation in_centimetres(std::size_t from, std::size_t to) {
+  const auto file = std::filesystem::path(data_folder()) / "templates/push_pull/measurement.json";
+  JsonValue root = curves::with_tables(load_json(file.string()));
+  for (auto& [key, runs] : root.members)
+    for (std::size_t r = from; key == "runs" && r < to; ++r)
+      for (auto& [name, values] : runs.items[r].members)
+        for (JsonValue& value : values.items)
+          if (name == "inserted_mm") value.number /= 10;
+  return curves::explain_curves(root, {});
+}
+
+/// A force that is divided until it vanishes beside the noise agrees with a wire that comes nowhere, too.
+TEST(PushPull, AUnitThatLeavesNoSignalIsNotTheOne) {
+  const auto x = in_centimetres(1, 2);
+  ASSERT_TRUE(x.best().fault);
+  EXPECT_EQ(x.best().fault->what, "inserted_mm of p2 is in cm");
+}
+
+/// It ended with a signal: there was nothing to fit.
+TEST(PushPull, WhereNothingComesToABendNothingIsFreeAndItIsSaid) {
+  const auto x = in_centimetres(0, 3);
+  EXPECT_TRUE(x.set->free().empty());
+  ASSERT_FALSE(x.warnings.empty());
+  EXPECT_NE(x.warnings.back().find("No stiffness makes a difference"), std::string::npos) << x.warnings.back();
 }
 
 template <class Spoil>

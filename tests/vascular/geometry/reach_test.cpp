@@ -25,6 +25,7 @@ Mesh rings() {
 SphereTree line_to(double end_m) {
   SphereTree tree;
   TreeBranch& branch = tree.branches.emplace_back();
+  branch.name = "RCA";
   for (double s = 0; s <= end_m; s += 0.5e-3) branch.spheres.push_back({{0, 0, s}, radius_m, s});
   return tree;
 }
@@ -37,6 +38,7 @@ TEST(Reach, ALineThatEndsHalfwayLeavesTheRest) {
   EXPECT_NEAR(half.share, 0.5 - own_m / length_m, 0.01);
   EXPECT_NEAR(half.p.z(), length_m / 2 + own_m, 1e-3);
   EXPECT_GT(half.share, unreached_matters);
+  EXPECT_EQ(half.branch, "RCA") << "is cut short there";
   EXPECT_EQ(unreached(rings(), {}).share, 1);
 }
 

@@ -9,6 +9,7 @@ namespace ostium::vascular {
 struct Unreached {
   double share = 0;                             ///< of the surface's vertices, [0, 1]
   Eigen::Vector3d p = Eigen::Vector3d::Zero();  ///< of those the one nearest to a line, m: where the line ends
+  std::string branch;                           ///< that ends there; empty: none does
 };
 /// Vertices farther from every sphere than three of its radii and 1.5 mm; looks at 4,000 of them at most. No spheres:
 /// all.

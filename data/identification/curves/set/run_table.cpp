@@ -111,4 +111,17 @@ JsonValue with_tables(JsonValue root) {
   return root;
 }
 
+std::vector<std::string> doubts_of_tables(const JsonValue& root) {
+  std::vector<std::string> out;
+  const JsonValue* runs = root.find("runs");
+  for (std::size_t r = 0; runs && r < runs->items.size(); ++r) {
+    const auto& members = runs->items[r].members;
+    const auto table = std::find_if(members.begin(), members.end(),
+                                    [&](const auto& m) { return m.value.file && *m.value.file != *root.file; });
+    if (table == members.end()) continue;
+    if (std::string doubt = doubt_of_end(*table->value.file); !doubt.empty()) out.push_back(std::move(doubt));
+  }
+  return out;
+}
+
 }  // namespace ostium::data::curves

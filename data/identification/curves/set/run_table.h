@@ -8,4 +8,7 @@ namespace ostium::data::curves {
 /// `density_mm[1]` ... as a list of lists. Tables lie beside the file. Throws LoadError.
 JsonValue with_tables(JsonValue root);
 
+/// Words of doubt about the tables that were written out in `root`.
+std::vector<std::string> doubts_of_tables(const JsonValue& root);
+
 }  // namespace ostium::data::curves

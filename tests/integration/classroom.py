@@ -1,0 +1,150 @@
+#!/usr/bin/env python3
+"""classroom.py OSTIUM: a course's server, asked as its page asks: what cannot be opened or kept is told, and it stays."""
+import base64
+import json
+import os
+import pathlib
+import re
+import resource
+import signal
+import socket
+import subprocess
+import sys
+import tempfile
+import time
+
+REPO = pathlib.Path(__file__).resolve().parents[2]
+OSTIUM = str(pathlib.Path(sys.argv[1]).resolve())
+
+
+class Client:
+    """The page's side of a WebSocket (RFC 6455)."""
+
+    def __init__(self, link):
+        port, token = int(re.search(r":(\d+)/", link)[1]), link.strip().split("token=")[1]
+        self.socket = socket.create_connection(("127.0.0.1", port))
+        key = base64.b64encode(os.urandom(16)).decode()
+        self.socket.sendall((f"GET /socket HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\nOrigin: http://127.0.0.1:{port}\r\n"
+                             f"Upgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Key: {key}\r\n"
+                             "Sec-WebSocket-Version: 13\r\n\r\n").encode())
+        self.bytes = b""
+        while b"\r\n\r\n" not in self.bytes:
+            self.take_more(10)
+        self.bytes = self.bytes.split(b"\r\n\r\n", 1)[1]
+        self.say({"do": "hello", "token": token})
+
+    def say(self, order):
+        text, mask = json.dumps(order).encode(), os.urandom(4)
+        head = bytes([0x81, 0x80 | len(text)]) if len(text) < 126 else bytes([0x81, 0xFE]) + len(text).to_bytes(2, "big")
+        self.socket.sendall(head + mask + bytes(b ^ mask[i % 4] for i, b in enumerate(text)))
+
+    def take_more(self, seconds):
+        self.socket.settimeout(seconds)
+        more = self.socket.recv(65536)
+        if not more:
+            raise SystemExit("the server has gone")
+        self.bytes += more
+
+    def frame(self, seconds):
+        def need(count):
+            while len(self.bytes) < count:
+                self.take_more(seconds)
+        need(2)
+        last, kind, size, at = self.bytes[0] & 0x80, self.bytes[0] & 0x0F, self.bytes[1] & 0x7F, 2
+        if size >= 126:
+            at = 4 if size == 126 else 10
+            need(at)
+            size = int.from_bytes(self.bytes[2:at], "big")
+        need(at + size)
+        body, self.bytes = self.bytes[at:at + size], self.bytes[at + size:]
+        return (kind, body) if last else (kind, body + self.frame(seconds)[1])
+
+    def wait(self, what, is_it, seconds=60):
+        """The first message of which that is true."""
+        end = time.monotonic() + seconds
+        while time.monotonic() < end:
+            kind, body = self.frame(seconds)
+            if kind == 1 and is_it(message := json.loads(body)):
+                return message
+        raise SystemExit(f"{what}: did not come")
+
+
+def course_of(folder, spoil):
+    course = json.loads((REPO / "data/courses/first-steps.json").read_text(encoding="utf-8"))
+    course["name"], course["lessons"] = "mine", course["lessons"][:2]
+    spoil(course["lessons"])
+    file = folder / "mine.json"
+    file.write_text(json.dumps(course), encoding="utf-8")
+    return file
+
+
+class Program:
+    def __init__(self, folder, *arguments, largest_file=None):
+        self.log = folder / "log"
+        limit = (lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (largest_file,) * 2)) if largest_file else None
+        self.process = subprocess.Popen([OSTIUM, *map(str, arguments)], cwd=folder, stdout=subprocess.PIPE, text=True,
+                                        stderr=open(self.log, "w", encoding="utf-8"), preexec_fn=limit)
+        link = ""
+        while "trainer: " not in link:
+            link = self.process.stdout.readline()
+            assert link, self.log.read_text(encoding="utf-8")
+        self.page = Client(link)
+
+    def __enter__(self):
+        return self.page
+
+    def __exit__(self, failed, *_):
+        self.process.send_signal(signal.SIGTERM)
+        self.process.wait(30)
+        if failed:
+            print(self.log.read_text(encoding="utf-8"))
+
+
+def of(kind, **values):
+    return lambda message: message["type"] == kind and all(message.get(k) == v for k, v in values.items())
+
+
+def a_lesson_that_cannot_be_opened(folder):
+    course = course_of(folder, lambda lessons: lessons[0].update(
+        instructions=[{"text": "There.", "until": [{"tip_passes": "mars"}]}]))
+    # A lesson that is in the course no more was open last.
+    kept = folder / "ostium-learn/mine/progress.json"
+    kept.parent.mkdir(parents=True)
+    kept.write_text('{"gone": [{"attempt": 1, "done": false, "open": true}], '
+                    '"over-the-arch": [{"attempt": 1, "done": false, "open": false}]}', encoding="utf-8")
+    with Program(folder, "learn", course) as page:
+        page.say({"do": "lesson", "values": [0, 0]})
+        board = page.wait("why it cannot be opened", lambda m: m["type"] == "course" and m["problem"])
+        assert "mars" in board["problem"] and board["at"] is None, board
+        page.say({"do": "lesson", "values": [1, 0]})
+        page.wait("another lesson", of("welcome"))
+
+
+def a_verdict_that_cannot_be_kept(folder):
+    kept = folder / "ostium-learn/mine/progress.json"
+    with Program(folder, "learn", course_of(folder, lambda lessons: None)) as page:
+        page.say({"do": "lesson", "values": [0, 0]})
+        page.wait("the lesson", of("welcome"))
+        kept.unlink()
+        kept.mkdir()
+        page.say({"do": "end"})
+        page.wait("the end", of("ended"))
+        board = page.wait("what is not kept", lambda m: m["type"] == "course" and m["problem"])
+        assert "progress.json" in board["problem"], board
+        kept.rmdir()
+        page.say({"do": "course"})
+        page.wait("the list", of("course", at=None, problem=""))
+    attempt, = json.loads(kept.read_text(encoding="utf-8"))["feed-and-turn"]
+    assert attempt["ended"] and attempt["missed"], attempt
+
+
+def a_recording_that_fails(folder):
+    with Program(folder, "serve", "rca-mid-focal", "--hands", "browser", "--out", "out", "--go", "--no-report",
+                 largest_file=100_000) as page:
+        page.wait("the word as it fails", lambda m: m["type"] == "refused" and "nothing is recorded" in m["why"])
+        page.wait("it goes on", of("now", paused=False))
+
+
+for test in (a_lesson_that_cannot_be_opened, a_verdict_that_cannot_be_kept, a_recording_that_fails):
+    with tempfile.TemporaryDirectory() as made:
+        test(pathlib.Path(made))
