@@ -98,7 +98,7 @@ int main(int argc, char** argv) {
                  "Instead: so many random drives through the beating test vessel (10 take a minute)");
   CLI::Option* in_coronary =
       app.add_option("--coronary-drives", coronary_drives,
-                     "Instead: so many with wire and balloon in a case's beating artery (5 take a minute)");
+                     "Instead: so many with wire and balloon in a case's beating artery (10 take a minute)");
   app.add_option("--arteries", arteries, "With --coronary-drives: rigid, or yield to instruments")
       ->check(CLI::IsMember({"rigid", "yield"}))
       ->needs(in_coronary);
