@@ -26,7 +26,7 @@ TEST(ConsoleOrder, WhatIsWrongIsNamedWithItsCure) {
                                                        {R"({"do":"frame_rate","values":[12]})", "3.75 7.5 15 30"},
                                                        {R"({"do":"view","values":[1.5]})", "1 to 8"},
                                                        {R"({"do":"pause","values":[1]})", "no values"},
-                                                       {R"({"do":"provoke","values":[9,0,20,1]})", "what: 1 to 8"},
+                                                       {R"({"do":"provoke","values":[10,0,20,1]})", "what: 1 to 9"},
                                                        {R"({"do":"drain","values":[-1]})", "0 to 300 mL/min"},
                                                        {R"({"do":"pause","at":1})", "at"},
                                                        {R"({"values":[1]})", "do"},
