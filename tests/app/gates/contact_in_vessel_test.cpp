@@ -24,6 +24,14 @@ double nearest_found_m(const core::Surface& surface, const std::vector<int>& fou
   return nearest_m;
 }
 
+/// The test vessel, that also sways.
+core::SurfaceDescription swaying(const gates::TestVessel& vessel) {
+  core::SurfaceDescription d = vessel.wall;
+  for (const Vector3d& p : d.frames[0])
+    d.sway.push_back(Vector3d(3e-3, -4e-3, 2e-3) + 0.1 * Vector3d(p.y(), p.z(), p.x()));
+  return d;
+}
+
 /// The boxes contain a cluster throughout an interval, so a query misses nothing.
 TEST(Surface, AQueryFindsWhatIsNearAtAnyMoment) {
   const gates::TestVessel vessel = gates::test_vessel();
@@ -48,9 +56,7 @@ TEST(Surface, AQueryFindsWhatIsNearAtAnyMoment) {
 /// Also for a beating vessel; and with no sway the result is bit-identical to a surface that cannot sway.
 TEST(Surface, WhatBeatsAndSwaysIsFoundAtAnyMoment) {
   const gates::TestVessel vessel = gates::test_vessel();
-  core::SurfaceDescription d = vessel.wall;
-  for (const Vector3d& p : d.frames[0])
-    d.sway.push_back(Vector3d(3e-3, -4e-3, 2e-3) + 0.1 * Vector3d(p.y(), p.z(), p.x()));
+  const core::SurfaceDescription d = swaying(vessel);
   const core::Surface still = make_surface(vessel.wall), surface = make_surface(d);
   core::SurfacePose pose(surface), still_pose(still);
   std::vector<int> found, still_found;
@@ -88,13 +94,6 @@ core::SurfaceMotion small_step(int n, double frame, double sway) {
   motion.frame_before = frame, motion.frame_after = frame + 1.0 / 60;
   if (n % 2) motion.sway_before = sway, motion.sway_after = sway + 1e-3;
   return motion;
-}
-
-core::SurfaceDescription swaying(const gates::TestVessel& vessel) {
-  core::SurfaceDescription d = vessel.wall;
-  for (const Vector3d& p : d.frames[0])
-    d.sway.push_back(Vector3d(3e-3, -4e-3, 2e-3) + 0.1 * Vector3d(p.y(), p.z(), p.x()));
-  return d;
 }
 
 /// A wall that gives way: every vertex lies aside as a smooth function of its place says, times `far_m`.
