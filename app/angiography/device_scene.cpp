@@ -68,14 +68,15 @@ fluoro::Body body_of(const std::string& name, const std::vector<Eigen::Vector3d>
 }  // namespace
 
 void add_balloon(const vascular::BalloonModel& model, const vascular::BalloonState& state,
-                 const vascular::VesselPath& path, double middle_m, const vascular::LumenMap& map,
-                 const vascular::LumenMoment& moment, bool markers, fluoro::Scene& scene) {
+                 const vascular::VesselPath& path, const vascular::LumenMap& map, const vascular::LumenMoment& moment,
+                 bool markers, fluoro::Scene& scene) {
   std::vector<Eigen::Vector3d> axis;
   std::vector<vascular::PathFrame> frames;
   std::vector<double> radius;
   for (int i = 0; i < vascular::balloon_spheres; i += 3) {
-    frames.push_back(frame_at(map, path, sphere_position(model, state, middle_m, i), moment));
-    axis.push_back(frames.back().centre);
+    frames.push_back(frame_at(map, path, sphere_position(model, state, i), moment));
+    const Eigen::Vector2d aside_m = state.aside_m[static_cast<std::size_t>(i)];
+    axis.push_back(frames.back().centre + aside_m.x() * frames.back().side + aside_m.y() * frames.back().up);
     radius.push_back(state.radius_m[i]);
   }
   // Its contrast displaces blood; a folded balloon holds none.
@@ -83,7 +84,7 @@ void add_balloon(const vascular::BalloonModel& model, const vascular::BalloonSta
     scene.moving.push_back(body_of("balloon", axis, frames, radius, model.iodine_kg_m3));
   if (!markers) return;
   for (double end : {-0.5, 0.5}) {
-    const double at = middle_m + state.slip_m + end * model.length_m;
+    const double at = state.seat_m + end * model.length_m;
     std::vector<Eigen::Vector3d> band;
     for (double x : {-0.5e-3, 0.5e-3}) band.push_back(frame_at(map, path, at + x, moment).centre);
     scene.shafts.push_back(line("marker", band, fluoro::Material::platinum, 0.31e-3, 0.26e-3));
@@ -92,10 +93,11 @@ void add_balloon(const vascular::BalloonModel& model, const vascular::BalloonSta
 
 void add_stent(const vascular::StentModel& model, const vascular::StentState& state, const vascular::VesselPath& path,
                const vascular::Patient& patient, const vascular::LumenMap& map, const vascular::WallShape& shape,
-               std::span<const double> radius_m, const vascular::LumenMoment& moment, fluoro::Scene& scene) {
+               std::span<const double> radius_m, const vascular::LumenMoment& moment,
+               const std::function<Eigen::Vector2d(double)>& aside_m, fluoro::Scene& scene) {
   const std::vector<Eigen::Vector3d> points = is_tied(state)
                                                   ? points_on_wall(model, state, patient, shape, radius_m, moment)
-                                                  : points_on_path(model, state, map, path, moment);
+                                                  : points_on_path(model, state, map, path, moment, aside_m);
   for (const auto& [a, b] : struts_of(model))
     scene.shafts.push_back(line("strut", {points[a], points[b]}, fluoro::Material::cobalt_chromium, model.strut_m / 2));
 }
@@ -138,11 +140,11 @@ void add_devices(const Bedside& bed, const Plan& plan, const vascular::Patient& 
     const bool mine = bed.device.balloon >= 0 && bed.treatment.stent_on[bed.device.balloon] == static_cast<int>(i);
     if (stent.where == vascular::StentState::deployed || (stent.where == vascular::StentState::on_balloon && mine))
       add_stent(bed.treatment.stents[i], stent, plan.path, patient, scene.map(), scene.shape(), bed.blood.radius_m,
-                {.phase = phase}, scene.scene());
+                {.phase = phase}, {}, scene.scene());
   }
   if (bed.device.balloon >= 0)
-    add_balloon(bed.treatment.balloons[bed.device.balloon], bed.state.balloon, plan.path, bed.device.middle_m,
-                scene.map(), {.phase = phase}, true, scene.scene());
+    add_balloon(bed.treatment.balloons[bed.device.balloon], bed.state.balloon, plan.path, scene.map(), {.phase = phase},
+                true, scene.scene());
   add_pools(bed.state.injury, scene.map(), bed.blood.radius_m, {.phase = phase}, scene.scene());
 }
 

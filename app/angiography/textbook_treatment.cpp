@@ -177,7 +177,7 @@ InflationRecord inflate(Bedside& bed, const Plan& plan, int balloon, double gaug
   const vascular::BalloonModel& model = bed.treatment.balloons[balloon];
   InflationRecord record{.device = model.name};
   bed.device.balloon = balloon, bed.device.branch = plan.branch;
-  bed.device.middle_m = balloon == plan.proximal ? plan.proximal_middle_m : plan.middle_m;
+  bed.device.shaft.middle_m = balloon == plan.proximal ? plan.proximal_middle_m : plan.middle_m;
   bed.device.gauge_Pa = 0;
   bed.step();
   const double folded_m3 = bed.state.balloon.volume_m3;
@@ -186,7 +186,7 @@ InflationRecord inflate(Bedside& bed, const Plan& plan, int balloon, double gaug
     const vascular::BalloonState& s = bed.state.balloon;
     record.burst = record.burst || s.burst;
     record.ST_mV = std::max(record.ST_mV, ST_shift_mV(bed.physiology.ischaemia, bed.blood.ischaemia));
-    record.slip_m = s.slip_m;
+    record.slip_m = s.seat_m - bed.device.shaft.middle_m;
     if (s.pressure_Pa > 3.9 * atm && record.waist_at_4_atm == 1) record.waist_at_4_atm = report.balloon.waist;
     if (report.balloon.waist > 0.9 && record.waist_gave_Pa == 0 && s.pressure_Pa > 1.5 * atm)
       record.waist_gave_Pa = s.pressure_Pa;

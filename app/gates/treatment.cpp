@@ -30,7 +30,7 @@ data::GateResult chart(vascular::Compliance compliance, const char* name) {
     vascular::PlaqueState wall;
     for (double p = 3 * atm; p <= model.rated_Pa; p += atm) {
       for (int n = 0; n < (p < 4 * atm ? 12000 : 2000); ++n)
-        step(model, none, {nullptr, 0, p, {}}, 1e-3, state, wall, scratch);
+        step(model, none, {.gauge_Pa = p}, 1e-3, state, wall, scratch);
       const double D = 2 * state.radius_m[vascular::balloon_spheres / 2];
       worst = std::max(worst, 100 * std::fabs(D / chart_diameter_m(model, p) - 1));
     }

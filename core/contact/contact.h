@@ -18,9 +18,9 @@ namespace ostium::core {
 /// Once at the beginning of a step, or of a part of it (`from` to `to`, shares of the step): sets the walls' positions.
 void move_walls(const Model& model, const Inputs& inputs, double from, double to, Scratch& scratch);
 
-/// After move_walls: moves the part of a nest that is torn from node `first` of the chain to there, unless it would lie
-/// across a wall; then it stays, and the solve closes the gap.
-void move_torn_part(const Model& model, const Strand& strand, int first, Scratch& scratch);
+/// After move_walls: moves what lies beyond the first torn span of a nest to where that span leaves. If it would lie
+/// across a wall there, it stays, and the next one is tried; gaps that remain are closed by the solve.
+void move_torn_parts(const Model& model, const Strand& strand, Scratch& scratch);
 
 /// Finds the walls that a strand can reach, from the predicted positions of its nodes.
 void find_walls(const Model& model, const Strand& strand, Scratch& scratch);

@@ -137,7 +137,10 @@ void spare(const V3<double>& start, WallPlane& plane) {
 
 }  // namespace
 
-void move_torn_part(const Model& model, const Strand& strand, int first, Scratch& scratch) {
+namespace {
+
+/// Lays the elements from `first` one after the other. False, and nothing moves, if one would lie across a wall.
+bool string_from(const Model& model, const Strand& strand, int first, Scratch& scratch) {
   const Rod& rod = strand.s->inside;
   RodState& own = *strand.own;
   const auto next = [&](const V3<double>& p, int i) {
@@ -146,7 +149,7 @@ void move_torn_part(const Model& model, const Strand& strand, int first, Scratch
   V3<double> p = load3<double>(own.position, first);
   for (int i = first; i < rod.elements; ++i) {
     const V3<double> to = next(p, i);
-    if (leaves(model, p, to, rod.radius.at(0)[i + 1], scratch, strand.contact->clusters)) return;
+    if (leaves(model, p, to, rod.radius.at(0)[i + 1], scratch, strand.contact->clusters)) return false;
     p = to;
   }
   p = load3<double>(own.position, first);
@@ -154,6 +157,14 @@ void move_torn_part(const Model& model, const Strand& strand, int first, Scratch
     p = next(p, i);
     for (Field<3>* f : {&own.position, &own.position_before}) store3(*f, i + 1, p);
   }
+  return true;
+}
+
+}  // namespace
+
+void move_torn_parts(const Model& model, const Strand& strand, Scratch& scratch) {
+  for (const Span& span : strand.nest->spans)
+    if (span.torn && string_from(model, strand, span.at, scratch)) return;
 }
 
 double deeper_than_planes(const Model& model, const RodState& own, int i, const V3<double>& at, Scratch& scratch,

@@ -1,6 +1,7 @@
 #pragma once
 /// The only input to a running simulation: one struct per step, from a device, a script, a replay or a test.
 #include <Eigen/Core>
+#include <array>
 #include <vector>
 
 #include "core/model/hold.h"
@@ -23,14 +24,16 @@ struct StretchLoad {
   Eigen::Vector3d force_W_N = Eigen::Vector3d::Zero();
 };
 
-/// A spring from a point of the rod to a point of the world, along one direction only, such as the wall round an open
-/// balloon. Implicit, so it is stable at any stiffness. Ignored for a point inside another rod.
+/// A spring from a point of the rod to a point of the world, such as an open balloon to its shaft. Implicit, so it is
+/// stable at any stiffness. Ignored for a point inside another rod.
 struct Tether {
   double from_tip_m = 0;
   Eigen::Vector3d point_W = Eigen::Vector3d::Zero();
   Eigen::Vector3d along_W = Eigen::Vector3d::UnitZ();  ///< unit, towards the tip
-  double stiffness_N_m = 0;                            ///< 0: none
+  double along_N_m = 0, across_N_m = 0;                ///< stiffness; 0: none
 };
+
+inline constexpr int max_tethers = 3;  ///< of a rod: a balloon's two bonds across, and both along
 
 struct RodInputs {
   /// Speed at which the rod is pushed in at the introducer (the base's pose); negative: pulled back. Only a clamped
@@ -40,7 +43,7 @@ struct RodInputs {
   EndDrive tip{Hold::free};
   Eigen::Vector3d tip_force_W_N = Eigen::Vector3d::Zero();  ///< dead load on the distal tip
   StretchLoad load;
-  Tether tether;
+  std::array<Tether, max_tethers> tethers;
 };
 
 struct Inputs {

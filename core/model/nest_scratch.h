@@ -14,9 +14,10 @@ inline constexpr int max_layers = max_outer_rods + 1;
 /// A stretch of a nest's chain made of the elements of one rod, the outermost there.
 struct Span {
   int rod = 0;
-  int first = 0;     ///< first element of the rod in the span; behind another span, only its protruding part
-  int at = 0;        ///< index of that element in the chain
-  int elements = 0;  ///< to the rod's tip
+  int first = 0;      ///< first element of the rod in the span; behind another span, only its protruding part
+  int at = 0;         ///< index of that element in the chain
+  int elements = 0;   ///< to the rod's tip
+  bool torn = false;  ///< from where it leaves: it and what lies beyond are to be moved there
 };
 
 /// For each position, the field entries around it and the weight: f = (1 - part) f[before] + part f[before + 1].
@@ -80,7 +81,6 @@ struct Nest {
   int layer_count = 0;
   std::vector<Layer> layers;  ///< in the order of members
   Laid laid[max_layers];
-  int torn_at = -1;   ///< node of the chain beyond which a part is to be moved to where it leaves; -1: none
   bool moved = true;  ///< the rods' arrangement changed: interpolation and cells are recomputed
   double step_s = 0;
   RodScratch s;  ///< of the chain

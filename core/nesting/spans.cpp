@@ -86,11 +86,11 @@ void lay_over(const Rod& inside, const Rod& inner, const RodState& along, RodSta
 
 void lay_spans(const Model& model, Scratch& scratch, State& state, Nest& nest) {
   nest.spans.clear();
-  nest.torn_at = -1;
   Rod& chain = nest.s.inside;
   double reach = 0;
   int at = 0;
   for (std::size_t k = 0; k < nest.members.size(); ++k) {
+    bool torn = false;
     const int r = nest.members[k];
     const Rod& rod = k == 0 ? scratch.rods[r].inside : model.rods[r];
     RodState& own = state.rods[r];
@@ -106,8 +106,7 @@ void lay_spans(const Model& model, Scratch& scratch, State& state, Nest& nest) {
       const int first = first_exposed(rod, own, protrudes);
       const int root = nest.spans.back().rod;
       const V3<double> tip = load3<double>(state.rods[root].position, model.rods[root].elements);
-      if (expose(rod, first, first < rod.elements ? protrudes - rod.node_from_tip_m[first + 1] : 0, tip, own))
-        nest.torn_at = at;
+      torn = expose(rod, first, first < rod.elements ? protrudes - rod.node_from_tip_m[first + 1] : 0, tip, own);
     }
     const int first = own.exposed, count = rod.elements - first;
     layer.end = at + count;
@@ -115,7 +114,7 @@ void lay_spans(const Model& model, Scratch& scratch, State& state, Nest& nest) {
       layer.end = 0;
       continue;
     }
-    nest.spans.push_back({r, first, at, count});
+    nest.spans.push_back({r, first, at, count, torn});
     copy_entries(rod.length, first, rod.elements, chain.length, at);
     if (k > 0) chain.length.at(0)[at] = own.inserted_m - reach - rod.node_from_tip_m[first + 1];
     double depth = reach;

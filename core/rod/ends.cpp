@@ -27,8 +27,8 @@ Vector3d within(const Vector3d& asked, double limit, std::uint32_t limit_flag, s
 }
 
 bool is_finite(const Tether& a) {
-  return std::isfinite(a.from_tip_m) && a.point_W.allFinite() && a.along_W.allFinite() &&
-         std::isfinite(a.stiffness_N_m);
+  return std::isfinite(a.from_tip_m) && a.point_W.allFinite() && a.along_W.allFinite() && std::isfinite(a.along_N_m) &&
+         std::isfinite(a.across_N_m);
 }
 
 bool joined(Hold hold) { return hold == Hold::clamped || hold == Hold::guided; }
@@ -75,7 +75,8 @@ RodInputs limited(const RodInputs& asked, std::uint32_t& trouble) {
   out.feed_m_s = within(Vector3d(asked.feed_m_s, 0, 0), tolerances::max_drive_speed_m_s, drive_limited, trouble).x();
   out.tip_force_W_N = within(out.tip_force_W_N, tolerances::max_load_N, load_limited, trouble);
   out.load.force_W_N = within(out.load.force_W_N, tolerances::max_load_N, load_limited, trouble);
-  if (!is_finite(out.tether)) out.tether = {}, trouble |= drive_not_finite;
+  for (Tether& tether : out.tethers)
+    if (!is_finite(tether)) tether = {}, trouble |= drive_not_finite;
   return out;
 }
 

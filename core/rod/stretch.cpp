@@ -1,5 +1,6 @@
 #include "core/rod/stretch.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
@@ -35,15 +36,24 @@ void add_stretch_load(const Rod& rod, const StretchLoad& load, int begin, int en
   for (int i = first; i <= last; ++i) add_load(i, load.force_W_N / (last - first + 1), scratch);
 }
 
-void tie_to_tether(const Rod& rod, const Tether& tether, int begin, int end, RodScratch& scratch) {
-  if (!(tether.stiffness_N_m > 0)) return;
+void tie_to_tether(const Rod& rod, const Tether& tether, int begin, int end, const RodState& own, RodScratch& scratch) {
+  if (!(tether.along_N_m > 0 || tether.across_N_m > 0)) return;
   const int i = nearest_to(rod, tether.from_tip_m, begin, end);
   const double beyond_m = tether.from_tip_m - from_tip_m(rod, i, end);
   if (std::fabs(beyond_m) > scratch.inside.joint_length.at(0)[i]) return;
+  // The node lies beyond the tether's position, along the element between them.
+  const int between = std::clamp(beyond_m > 0 ? i - 1 : i, begin, std::max(begin, end - 2));
+  const V3<double> beyond = beyond_m * director3(load4<double>(own.orientation, between)),
+                   place = from_eigen(tether.point_W) + beyond;
   S3<double> P = load6<double>(scratch.chain.compliance, i);
   V3<double> target = load3<double>(scratch.target, i);
-  const double place = tether.along_W.dot(tether.point_W) + beyond_m;
-  tie(from_eigen(tether.along_W), place, 1 / tether.stiffness_N_m, P, target);
+  const auto tie_along = [&](const Eigen::Vector3d& n_W, double stiffness_N_m) {
+    const V3<double> n = from_eigen(n_W);
+    if (stiffness_N_m > 0) tie(n, dot(n, place), 1 / stiffness_N_m, P, target);
+  };
+  const Eigen::Vector3d across_W = tether.along_W.unitOrthogonal();
+  tie_along(tether.along_W, tether.along_N_m);
+  tie_along(across_W, tether.across_N_m), tie_along(tether.along_W.cross(across_W), tether.across_N_m);
   store6(scratch.chain.compliance, i, P);
   store3(scratch.target, i, target);
 }

@@ -12,7 +12,7 @@ namespace ostium::core {
 /// Spreads a load evenly over the nodes of its stretch.
 void add_stretch_load(const Rod& rod, const StretchLoad& load, int begin, int end, RodScratch& scratch);
 
-/// Ties the node nearest to a tether's position.
-void tie_to_tether(const Rod& rod, const Tether& tether, int begin, int end, RodScratch& scratch);
+/// Ties the node nearest to a tether's position. `own`: the chain's state.
+void tie_to_tether(const Rod& rod, const Tether& tether, int begin, int end, const RodState& own, RodScratch& scratch);
 
 }  // namespace ostium::core

@@ -88,7 +88,7 @@ void meet_walls(const Model& model, const Inputs& inputs, Piece piece, Scratch& 
   const InPhase phase(scratch.clock, finding_walls);
   move_walls(model, inputs, piece.from, piece.to, scratch);
   for (const Strand& strand : scratch.strands) {
-    if (strand.nest && strand.nest->torn_at >= 0) move_torn_part(model, strand, strand.nest->torn_at, scratch);
+    if (strand.nest) move_torn_parts(model, strand, scratch);
     guess_nodes(*strand.own, *strand.s);
     find_walls(model, strand, scratch);
   }
@@ -101,7 +101,8 @@ void constrain(const Model& model, Scratch& scratch, const Strand& strand) {
     predict_nodes(s.inside, model.rods[rod].damping, begin, end, *strand.own, model.gravity_W, s.step_s, s);
     add_load(end - 1, scratch.rods[rod].inputs.tip_force_W_N, s);
     add_stretch_load(model.rods[rod], scratch.rods[rod].inputs.load, begin, end, s);
-    tie_to_tether(model.rods[rod], scratch.rods[rod].inputs.tether, begin, end, s);
+    for (const Tether& tether : scratch.rods[rod].inputs.tethers)
+      tie_to_tether(model.rods[rod], tether, begin, end, *strand.own, s);
   };
   if (strand.nest)
     for (const Span& span : strand.nest->spans)

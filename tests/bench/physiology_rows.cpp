@@ -72,7 +72,7 @@ Row treatment_row(bool quick) {
   std::vector<double> occupied, times;
   const app::Plan& plan = t.plans.front();
   vascular::TreatmentInputs device;
-  device.branch = plan.branch, device.middle_m = plan.middle_m, device.balloon = plan.stent;
+  device.branch = plan.branch, device.shaft.middle_m = plan.middle_m, device.balloon = plan.stent;
   for (int n = 0; n < (quick ? 1000 : 10000); ++n) {
     device.gauge_Pa = std::min(plan.stent_Pa, 2e-3 * atm * n);
     const double start = thread_ms();

@@ -199,6 +199,29 @@ TEST(Nesting, FourRodsBendAsOne) {
   }
 }
 
+// Two rods of three lie aside of the one that they leave: each is moved to where it leaves, and the first one stays.
+TEST(Nesting, PartsThatAreTornAreAllMovedToWhereTheyLeave) {
+  Model model;
+  const double radius[] = {1.6e-3, 1.2e-3, 0.8e-3};
+  for (int i = 0; i < 3; ++i)
+    model.rods.push_back(make_rod(rod(0.2 + 0.04 * i, 1e-3, radius[i], i < 2 ? radius[i] - 0.3e-3 : 0, 100)));
+  model.nestings = coaxial({0, 1, 2});
+  model.gravity_W.setZero();
+  std::vector<EndState> bases(3, along_x());
+  for (int i = 0; i < 3; ++i) bases[i].p_W.y() = 0.02 * i;
+  State state = make_state(model, bases, {0.2, 0.24, 0.28});
+  Scratch scratch(model);
+  StepReport report;
+  Inputs inputs;
+  inputs.rods.resize(3);
+  step(model, inputs, state, scratch, report);
+  for (int r = 0; r < 3; ++r) {
+    const Vector3d tip = state.rods[r].position[100];
+    EXPECT_NEAR(tip.y(), 0, 1e-6) << r;
+    EXPECT_NEAR(tip.x(), 0.2 + 0.04 * r, 1e-5) << r;
+  }
+}
+
 // A straight catheter pulled back over a held wire, without friction, does not move the wire.
 TEST(Nesting, ACatheterIsDrawnBackOverAHeldWire) {
   Model model;

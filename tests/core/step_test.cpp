@@ -118,15 +118,20 @@ TEST(Step, ATetherIsASpringBesideTheRod) {
   const double F = 1e-3;
   in.tip_force_W_N = Vector3d(0, F, 0);
   const double free_m = tip_after(3000);
-  in.tether = {0, Vector3d::Zero(), Vector3d::UnitY(), 2 * F / free_m};
+  Tether& tether = in.tethers[1];
+  tether = {0, Vector3d::Zero(), Vector3d::UnitY(), 2 * F / free_m, 0};
   EXPECT_NEAR(tip_after(3000), free_m / 3, 1e-3 * free_m);
-  in.tether.along_W = Vector3d::UnitZ();
+  tether.along_W = Vector3d::UnitZ();
   EXPECT_NEAR(tip_after(3000), free_m, 1e-3 * free_m) << "across its direction it holds nothing";
+  tether = {0, {state.rods[0].position[40].x(), 0, 0}, Vector3d::UnitZ(), 0, 2 * F / free_m};
+  EXPECT_NEAR(tip_after(3000), free_m / 3, 1e-3 * free_m);
+  in.tethers[0] = {0, Vector3d::Zero(), Vector3d::UnitY(), 2 * F / free_m, 0};
+  EXPECT_NEAR(tip_after(3000), free_m / 5, 1e-3 * free_m) << "both hold it";
 
   in = {};
-  in.tether = {0, Vector3d(0, 1e-3, 0), Vector3d::UnitY(), 1e6};
+  tether = {0, Vector3d(0, 1e-3, 0), Vector3d::UnitY(), 1e6, 0};
   for (int n = 0; n < 50; ++n) EXPECT_NEAR(tip_after(1), 1e-3, 1e-6) << "step " << n;
-  in.tether.stiffness_N_m = std::nan("");
+  tether.across_N_m = std::nan("");
   tip_after(1);
   EXPECT_TRUE(report.trouble & drive_not_finite);
 }

@@ -9,6 +9,7 @@
 
 #include "core/base/random.h"
 #include "core/base/units.h"
+#include "vascular/treatment/balloon_body.h"
 
 namespace ostium::vascular {
 
@@ -23,8 +24,6 @@ constexpr double sealed_m = 20e-6;       // a gap this narrow counts as sealed
 constexpr double soft_m = 30e-6;         // distance over which balloon and stent come to bear on the wall
 constexpr double packed_Pa = 100 * atm;  // stiffness of folds that lie one on the other [estimate]
 constexpr double wedge_ahead_m = 1.5e-3, wedge_gap_m = 30e-6;  // more than a session's wall lags
-
-double spacing(const BalloonModel& m) { return (m.length_m + 2 * m.shoulder_m) / (n - 1); }
 
 /// Radius when just unfolded, at the unfolding pressure.
 double unfolded_m(const BalloonModel& m) {
@@ -82,23 +81,38 @@ BalloonState make_balloon_state(const BalloonModel& m) {
   s.radius_m.assign(n, 0);
   for (int i = 0; i < n; ++i) {
     s.radius_m[i] = std::min(m.folded_m, m.shaft_m + sphere_share(m, i) * (m.folded_m - m.shaft_m));
-    s.volume_m3 += pi * s.radius_m[i] * s.radius_m[i] * spacing(m);
+    s.volume_m3 += pi * s.radius_m[i] * s.radius_m[i] * spacing_m(m);
   }
   s.largest_m = m.folded_m;
+  s.aside_m.assign(n, Eigen::Vector2d::Zero());
   return s;
 }
 
-double sphere_position(const BalloonModel& m, const BalloonState& s, double middle_m, int i) {
-  return middle_m + s.slip_m - m.length_m / 2 - m.shoulder_m + i * spacing(m);
+void follow_shaft(double shaft_middle_m, BalloonState& s) {
+  if (!s.held) s.seat_m = shaft_middle_m;
+}
+
+double spacing_m(const BalloonModel& m) { return (m.length_m + 2 * m.shoulder_m) / (n - 1); }
+
+double skin_N_m(const BalloonModel& m) { return m.nominal_m * m.nominal_m / 2 / m.growth_m_Pa; }
+
+double sphere_position(const BalloonModel& m, const BalloonState& s, int i) {
+  return s.seat_m - m.length_m / 2 - m.shoulder_m + i * spacing_m(m);
 }
 
 double sphere_share(const BalloonModel& m, int i) {
-  const double from_end = std::min(i, n - 1 - i) * spacing(m);
+  const double from_end = std::min(i, n - 1 - i) * spacing_m(m);
   return from_end >= m.shoulder_m ? 1 : (1 - std::cos(pi * from_end / m.shoulder_m)) / 2;
 }
 
-double radius_at(const BalloonModel& m, const BalloonState& s, double middle_m, double s_m) {
-  const double x = (s_m - sphere_position(m, s, middle_m, 0)) / spacing(m);
+Eigen::Vector2d aside_at_m(const BalloonModel& m, const BalloonState& s, double s_m) {
+  const double x = std::clamp((s_m - sphere_position(m, s, 0)) / spacing_m(m), 0.0, n - 1.0);
+  const int i = std::min(static_cast<int>(x), n - 2);
+  return s.aside_m[i] + (x - i) * (s.aside_m[i + 1] - s.aside_m[i]);
+}
+
+double radius_at(const BalloonModel& m, const BalloonState& s, double s_m) {
+  const double x = (s_m - sphere_position(m, s, 0)) / spacing_m(m);
   if (x < 0 || x > n - 1) return 0;
   const int i = std::min(static_cast<int>(x), n - 2);
   return s.radius_m[i] + (x - i) * (s.radius_m[i + 1] - s.radius_m[i]);
@@ -106,13 +120,40 @@ double radius_at(const BalloonModel& m, const BalloonState& s, double middle_m, 
 
 namespace {
 
-/// The wall between two cells of the path, interpolated.
-WallPressure wall_at(const PlaqueModel& plaque, const PlaqueState& wall, const VesselPath& path, double s_m, double a) {
+/// The wall round a sphere, interpolated between two cells of the path. `held_m`: radius to which a stent holds it.
+CircleAside wall_round(const PlaqueModel& plaque, const PlaqueState& wall, const VesselPath& path, double s_m, double a,
+                       double aside_m, double held_m) {
   const VesselPath::Place at = path.at(s_m);
-  const WallPressure one = wall_pressure(plaque, wall, path.cells[at.index], a);
+  const auto press = [&](int index) {
+    const int cell = path.cells[index];
+    if (a + aside_m <= wall.rest_m[cell]) return CircleAside{};
+    const WallLaw law = wall_law(plaque, wall, cell);
+    return aside_m > 0 ? press_circle(law, std::max(held_m, law.rest_m), a, aside_m) : CircleAside{law.at(a)};
+  };
+  const CircleAside one = press(at.index);
   if (at.share == 0) return one;
-  const WallPressure two = wall_pressure(plaque, wall, path.cells[at.index + 1], a);
-  return {(1 - at.share) * one.p_Pa + at.share * two.p_Pa, (1 - at.share) * one.slope_Pa_m + at.share * two.slope_Pa_m};
+  const CircleAside two = press(at.index + 1);
+  const auto mix = [&](double of_one, double of_two) { return (1 - at.share) * of_one + at.share * of_two; };
+  return {{mix(one.mean.p_Pa, two.mean.p_Pa), mix(one.mean.slope_Pa_m, two.mean.slope_Pa_m)},
+          mix(one.back_N_m, two.back_N_m),
+          mix(one.back_N_m2, two.back_N_m2)};
+}
+
+/// The wall's pressure on a sphere in the artery, to which it `meets`; keeps what pushes it back to the middle.
+WallPressure meet_wall(const PlaqueModel& plaque, const PlaqueState& wall, const BalloonInputs& in, double at_m,
+                       const BalloonState& s, int i, double meets, BalloonScratch& x) {
+  const bool sleeved = !in.sleeve.covers.empty() && in.sleeve.covers[i] > 0;
+  const double outer = s.radius_m[i] + (sleeved ? in.sleeve.thickness_m : 0), aside_m = s.aside_m[i].norm();
+  // A sleeve opens in the middle; what is in it may lie aside.
+  const CircleAside round = wall_round(plaque, wall, *in.path, at_m, outer, sleeved ? 0 : aside_m, 0);
+  const CircleAside back = sleeved && aside_m > 0 ? wall_round(plaque, wall, *in.path, at_m, outer, aside_m,
+                                                               in.sleeve.inner_m[i] + in.sleeve.thickness_m)
+                                                  : round;
+  x.back_N_m[i] = back.back_N_m, x.back_N_m2[i] = back.back_N_m2;
+  if (meets == 0) return {};
+  WallPressure w{meets * round.mean.p_Pa, meets * round.mean.slope_Pa_m};
+  if (meets < 1) w.slope_Pa_m += (round.mean.p_Pa + in.sleeve.p_Pa[i]) / soft_m;
+  return w;
 }
 
 /// Thomas' algorithm with two right-hand sides; overwrites everything.
@@ -128,14 +169,6 @@ void solve(BalloonScratch& x) {
     x.right[i] = (x.right[i] - x.above[i] * next_r) / x.middle[i];
     x.unit[i] = (x.unit[i] - x.above[i] * next_u) / x.middle[i];
   }
-}
-
-/// Axial force of the wall against friction: the balloon slides if friction is exceeded, against the spring of its
-/// shaft.
-void slide(const BalloonModel& m, double along_N, double pressed_N, double dt, BalloonState& s) {
-  const double wanted = along_N - m.grip_N_m * s.slip_m, held = m.friction * pressed_N;
-  if (std::fabs(wanted) <= held) return;
-  s.slip_m += std::copysign(std::fabs(wanted) - held, wanted) * dt / (m.slide_N_s_m + m.grip_N_m * dt);
 }
 
 /// The shaft's tip is a cone that opens a narrowing as it goes in, for good only where the plaque yields, and what
@@ -157,28 +190,28 @@ BalloonReport step(const BalloonModel& m, const PlaqueModel& plaque, const Ballo
                    BalloonState& s, PlaqueState& wall, BalloonScratch& x) {
   assert(dt > 0 && dt <= 10e-3);
   BalloonReport report;
-  const double ds = spacing(m), gauge = std::max(-atm, std::isfinite(in.gauge_Pa) ? in.gauge_Pa : 0.0);
+  const double ds = spacing_m(m), gauge = std::max(-atm, std::isfinite(in.gauge_Pa) ? in.gauge_Pa : 0.0);
   report.gauge_Pa = gauge;
-  for (auto* v : {&x.below, &x.middle, &x.above, &x.right, &x.unit}) v->assign(n, 0);
+  for (auto* v : {&x.below, &x.middle, &x.above, &x.right, &x.unit, &x.back_N_m, &x.back_N_m2}) v->assign(n, 0);
   if (s.pressure_Pa > burst_Pa(m)) s.burst = true;
   const bool was_filled = s.was_filled;
   double along = 0, pressed = 0;
+  Eigen::Vector2d aside = Eigen::Vector2d::Zero();
   for (int i = 0; i < n; ++i) {
-    const double a = s.radius_m[i], share = sphere_share(m, i), at = sphere_position(m, s, in.middle_m, i);
+    const double a = s.radius_m[i], share = sphere_share(m, i), at = sphere_position(m, s, i);
     WallPressure sum = skin(m, share, was_filled, a);
     const bool sleeved = !in.sleeve.covers.empty() && in.sleeve.covers[i] > 0;
     // Inside a sleeve it has no contact; when it starts to touch, skin and struts yield slightly.
     const double meets = sleeved ? std::clamp(1 + (a - in.sleeve.inner_m[i]) / soft_m, 0.0, 1.0) : 1;
     if (sleeved && meets > 0) sum.p_Pa += meets * in.sleeve.p_Pa[i], sum.slope_Pa_m += meets * in.sleeve.slope_Pa_m[i];
-    if (in.path && meets > 0) {
-      WallPressure w = wall_at(plaque, wall, *in.path, at, a + (sleeved ? in.sleeve.thickness_m : 0));
-      w.p_Pa *= meets, w.slope_Pa_m = meets * w.slope_Pa_m;
-      if (meets < 1) w.slope_Pa_m += (w.p_Pa / meets + in.sleeve.p_Pa[i]) / soft_m;
+    if (in.path) {
+      const WallPressure w = meet_wall(plaque, wall, in, at, s, i, meets, x);
       sum.p_Pa += w.p_Pa, sum.slope_Pa_m += w.slope_Pa_m;
       report.touches = report.touches || w.p_Pa > 0;
       const double before = s.radius_m[std::max(i - 1, 0)], after = s.radius_m[std::min(i + 1, n - 1)];
       along += w.p_Pa * 2 * pi * a * (after - before) / 2;
       pressed += w.p_Pa * 2 * pi * a * ds;
+      if (const double off = s.aside_m[i].norm(); off > 0) aside -= x.back_N_m[i] * ds / off * s.aside_m[i];
     }
     const double N = std::max(0.0, s.pressure_Pa) * a / 2 / (ds * ds), c = m.viscous_Pa_s_m / dt;
     x.below[i] = i > 0 ? -N : 0, x.above[i] = i + 1 < n ? -N : 0;
@@ -216,21 +249,25 @@ BalloonReport step(const BalloonModel& m, const PlaqueModel& plaque, const Ballo
   if (s.pressure_Pa > m.unfolding_Pa) s.was_filled = true;
   s.inflated_s = gauge > atm ? s.inflated_s + dt : 0;
   if (in.path) {
-    slide(m, along, pressed, dt, s);
-    report.axial_N = along, report.pressed_N = pressed;
+    slide(m, in.shaft, along, pressed, dt, s);
+    if (!in.shaft.aside_m.empty()) lie_aside(m, in.shaft, dt, x, s);
+    report.axial_N = along, report.pressed_N = pressed, report.aside_N = aside.norm();
     double narrowest_gap = 1;
     for (std::size_t k = 0; k < in.path->cells.size(); ++k) {
-      const double a = radius_at(m, s, in.middle_m, in.path->s_m[k]);
+      const double a = radius_at(m, s, in.path->s_m[k]);
       if (a <= 0) continue;
-      const int i = std::clamp(
-          static_cast<int>(std::lround((in.path->s_m[k] - sphere_position(m, s, in.middle_m, 0)) / ds)), 0, n - 1);
+      const int i =
+          std::clamp(static_cast<int>(std::lround((in.path->s_m[k] - sphere_position(m, s, 0)) / ds)), 0, n - 1);
       const bool sleeved = !in.sleeve.covers.empty() && in.sleeve.covers[i] > 0;
       const double outer = a + (sleeved ? in.sleeve.thickness_m : 0);
       push_wall(plaque, in.path->cells[k], outer, wall);
       narrowest_gap = std::min(narrowest_gap, wall.radius_m[in.path->cells[k]] - outer);
     }
     report.seals = narrowest_gap < sealed_m;
-    wedge(m, plaque, *in.path, in.middle_m + s.slip_m, wall);
+    wedge(m, plaque, *in.path, s.seat_m, wall);
+  } else {
+    s.held = false;
+    std::fill(s.aside_m.begin(), s.aside_m.end(), Eigen::Vector2d::Zero());
   }
   double least = 1, most = 0;
   const int first = static_cast<int>(std::ceil(m.shoulder_m / ds)), last = n - 1 - first;

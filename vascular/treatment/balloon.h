@@ -6,7 +6,10 @@
 ///   c da/dt = p - p_skin(a) - p_stent(a) - p_wall(a) + N a'',   N = p a / 2 (tension along the skin)
 /// The compliance chart is linear above the unfolding pressure: D = nominal + growth (p - nominal pressure); below it
 /// the balloon is folded. It fills through the shaft, R dV/dt = p_gauge - p, so that p lags and the balloon empties
-/// within seconds under vacuum, and hardly without it, since then only the folds expel the fluid.
+/// within seconds under vacuum, and hardly without it, since then only the folds expel the fluid. Where its body lies
+/// aside of the artery's middle line, p_wall is the mean round it (balloon_body.h).
+#include <Eigen/Core>
+#include <array>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -47,7 +50,11 @@ struct BalloonState {
   double pressure_Pa = 0;        ///< inside minus outside
   bool was_filled = false;       ///< its factory folds are gone
   bool burst = false;
-  double slip_m = 0;      ///< distance it has slid along the vessel relative to its shaft
+  double seat_m = 0;                     ///< middle of its markers along the path
+  bool held = false;                     ///< pressed by the wall, which keeps it there; else it goes with its shaft
+  std::vector<Eigen::Vector2d> aside_m;  ///< (balloon_spheres) from the artery's middle line, along side and up
+  /// To where its proximal and distal bond pull the shaft, in the same way, with BalloonDesign::bond_N_m.
+  std::array<Eigen::Vector2d, 2> bonds_m = {Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()};
   double largest_m = 0;   ///< largest radius so far
   double inflated_s = 0;  ///< time above 1 atm in this inflation
 };
@@ -58,11 +65,23 @@ constexpr auto fields(const BalloonState*) {
                     core::field("pressure_Pa", &S::pressure_Pa),
                     core::field("was_filled", &S::was_filled),
                     core::field("burst", &S::burst),
-                    core::field("slip_m", &S::slip_m),
+                    core::field("seat_m", &S::seat_m),
+                    core::field("held", &S::held),
+                    core::field("aside_m", &S::aside_m),
+                    core::field("bonds_m", &S::bonds_m),
                     core::field("largest_m", &S::largest_m),
                     core::field("inflated_s", &S::inflated_s)};
 }
 BalloonState make_balloon_state(const BalloonModel& model);
+
+/// Where the shaft lies in the artery. `aside_m` and `bend_1_m`: at each sphere, along side and up of the path's frame
+/// there (stent_shape.h); empty: both straight, in the middle.
+struct ShaftPlace {
+  double middle_m = 0;                             ///< midpoint of its markers along the path
+  std::span<const Eigen::Vector2d> aside_m = {};   ///< of the shaft
+  std::span<const Eigen::Vector2d> bend_1_m = {};  ///< curvature of the artery's middle line, towards the bend's centre
+  double holds_N_m = 60;  ///< stiffness behind the bonds, where no rod stands for the shaft [estimate]
+};
 
 /// A sleeve around the balloon: the resistance of stents. Empty, or one value per sphere.
 struct Sleeve {
@@ -74,8 +93,8 @@ struct Sleeve {
 
 struct BalloonInputs {
   const VesselPath* path = nullptr;  ///< null: in free space or in a catheter
-  double middle_m = 0;               ///< midpoint of its markers along the path
-  double gauge_Pa = 0;               ///< of the inflation device; -1 atm: vacuum
+  ShaftPlace shaft = {};
+  double gauge_Pa = 0;  ///< of the inflation device; -1 atm: vacuum
   Sleeve sleeve = {};
 };
 
@@ -83,6 +102,7 @@ struct BalloonReport {
   double gauge_Pa = 0;
   double axial_N = 0;                   ///< axial force of the wall on the shaft; positive distally
   double pressed_N = 0;                 ///< sum of the wall's radial force
+  double aside_N = 0;                   ///< what the wall pushes it aside with, in all: its bonds bear that
   double waist = 0;                     ///< narrowest over widest between the markers; below 1: a waist
   double dog_bone = 0;                  ///< radius of the wider end over that of the middle
   double spilt_m3 = 0;                  ///< released into the vessel by bursting in this step
@@ -91,17 +111,30 @@ struct BalloonReport {
 
 struct BalloonScratch {
   std::vector<double> below, middle, above, right, unit;
+  std::vector<double> back_N_m, back_N_m2;  ///< what the wall pushes each sphere to the middle with, and its slope
+  // Of the body (balloon_body.h):
+  std::vector<double> diagonal, next, second;
+  std::vector<Eigen::Vector2d> load;
 };
 
-/// Position of a sphere along the path (proximal first), including slip; and its share of the full size.
-double sphere_position(const BalloonModel& model, const BalloonState& state, double middle_m, int sphere);
+/// Before a step: what is not held is where its shaft is.
+void follow_shaft(double shaft_middle_m, BalloonState& state);
+
+/// Position of a sphere along the path (proximal first); and its share of the full size.
+double sphere_position(const BalloonModel& model, const BalloonState& state, int sphere);
 double sphere_share(const BalloonModel& model, int sphere);
+/// Distance from one sphere to the next.
+double spacing_m(const BalloonModel& model);
 
 /// One step of up to 10 ms; updates the wall. Does not allocate after the first call with the same scratch.
 BalloonReport step(const BalloonModel& model, const PlaqueModel& plaque, const BalloonInputs& inputs, double dt_s,
                    BalloonState& state, PlaqueState& wall, BalloonScratch& scratch);
 
 /// Radius at a position of the path, 0 beyond the balloon's ends.
-double radius_at(const BalloonModel& model, const BalloonState& state, double middle_m, double s_m);
+double radius_at(const BalloonModel& model, const BalloonState& state, double s_m);
+/// How far its middle line lies aside at a position of the path; as at its ends beyond them.
+Eigen::Vector2d aside_at_m(const BalloonModel& model, const BalloonState& state, double s_m);
+/// Stiffness of its skin, E t, which the chart gives: a tube that grows by dr under dp has r^2 dp / dr.
+double skin_N_m(const BalloonModel& model);
 
 }  // namespace ostium::vascular

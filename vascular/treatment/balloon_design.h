@@ -13,8 +13,8 @@ struct BalloonDesign {
   double filling_Pa_s_m3 = 6e12;  ///< R: 8 s under vacuum for 3.0 x 15 [typical, from memory]
   double viscous_Pa_s_m = 3e8;    ///< c [estimate: a waist gives way in about half a second]
   double friction = 0.12;         ///< against the wall [estimate]
-  double grip_N_m = 60;           ///< stiffness of the shaft behind it [estimate]
-  double slide_N_s_m = 200;       ///< damping [estimate]
+  double bond_N_m = 1000;         ///< stiffness with which its bonds hold the body on the shaft [estimate]
+  double slide_N_s_m = 20;        ///< damping of what slides along the wall [estimate]
 };
 
 }  // namespace ostium::vascular

@@ -77,20 +77,34 @@ PlaqueState make_plaque_state(const PlaqueModel& model) {
   return s;
 }
 
-WallPressure wall_pressure(const PlaqueModel& model, const PlaqueState& s, int i, double a) {
-  const PlaqueCell& cell = model.cells[i];
-  if (a <= s.rest_m[i]) return {};
+WallLaw wall_law(const PlaqueModel& model, const PlaqueState& s, int i) {
   const Strength is = strength_of(model, s, i);
-  WallPressure out{model.law.spring_Pa * (a - s.rest_m[i]) / cell.healthy_m, model.law.spring_Pa / cell.healthy_m};
-  if (a > is.open_m) out = {is.spring_Pa + is.E_Pa * (a - is.open_m) / cell.healthy_m, is.E_Pa / cell.healthy_m};
-  if (out.p_Pa > is.yield_Pa) out = {is.yield_Pa, 0.02 * out.slope_Pa_m};
-  if (a > cell.healthy_m) {
-    const double x = a / cell.healthy_m,
-                 grown = model.law.media_Pa * std::exp(std::min(30.0, model.law.media_k * (x * x - 1)));
-    out.p_Pa += grown - model.law.media_Pa;
-    out.slope_Pa_m += grown * model.law.media_k * 2 * x / cell.healthy_m;
+  return {.healthy_m = model.cells[i].healthy_m,
+          .rest_m = s.rest_m[i],
+          .open_m = is.open_m,
+          .E_s_Pa = model.law.spring_Pa,
+          .E_Pa = is.E_Pa,
+          .open_Pa = is.spring_Pa,
+          .yield_Pa = is.yield_Pa,
+          .media_Pa = model.law.media_Pa,
+          .media_k = model.law.media_k};
+}
+
+WallPressure WallLaw::at(double a) const {
+  if (a <= rest_m) return {};
+  WallPressure out{E_s_Pa * (a - rest_m) / healthy_m, E_s_Pa / healthy_m};
+  if (a > open_m) out = {open_Pa + E_Pa * (a - open_m) / healthy_m, E_Pa / healthy_m};
+  if (out.p_Pa > yield_Pa) out = {yield_Pa, 0.02 * out.slope_Pa_m};
+  if (a > healthy_m) {
+    const double x = a / healthy_m, grown = media_Pa * std::exp(std::min(30.0, media_k * (x * x - 1)));
+    out.p_Pa += grown - media_Pa;
+    out.slope_Pa_m += grown * media_k * 2 * x / healthy_m;
   }
   return out;
+}
+
+WallPressure wall_pressure(const PlaqueModel& model, const PlaqueState& s, int i, double a) {
+  return a <= s.rest_m[i] ? WallPressure{} : wall_law(model, s, i).at(a);
 }
 
 void push_wall(const PlaqueModel& model, int i, double a, PlaqueState& s) {

@@ -67,6 +67,14 @@ PlaqueState make_plaque_state(const PlaqueModel& model);
 struct WallPressure {
   double p_Pa = 0, slope_Pa_m = 0;  ///< at a radius, and its slope
 };
+/// A cell's law at its state, for many radii; names as above.
+struct WallLaw {
+  double healthy_m = 0, rest_m = 0, open_m = 0;
+  double E_s_Pa = 0, E_Pa = 0, open_Pa = 0, yield_Pa = 0;  ///< open_Pa: pressure at open_m
+  double media_Pa = 0, media_k = 0;
+  WallPressure at(double radius_m) const;
+};
+WallLaw wall_law(const PlaqueModel& model, const PlaqueState& state, int cell);
 /// Pressure of the wall at a radius, without changing it.
 WallPressure wall_pressure(const PlaqueModel& model, const PlaqueState& state, int cell, double radius_m);
 /// Pushes the wall of a cell to a radius, yielding where necessary; `radius_m` becomes the larger of that and `rest_m`.

@@ -113,13 +113,13 @@ double narrowest_m(const StentModel& m, const StentState& s, double from_m, doub
 }
 
 void add_sleeve(const StentModel& m, const StentState& s, const BalloonModel& balloon,
-                const BalloonState& balloon_state, double middle_m, StentScratch& x, Sleeve& sleeve) {
+                const BalloonState& balloon_state, StentScratch& x, Sleeve& sleeve) {
   if (sleeve.covers.empty())
     for (auto* v : {&x.p_Pa, &x.slope_Pa_m, &x.covers, &x.inner_m}) v->assign(balloon_spheres, 0);
   for (int b = 0; b < balloon_spheres; ++b) {
     int ring;
     double share;
-    if (!between(m, s, sphere_position(balloon, balloon_state, middle_m, b), ring, share)) continue;
+    if (!between(m, s, sphere_position(balloon, balloon_state, b), ring, share)) continue;
     const double a = balloon_state.radius_m[b];
     const WallPressure one = hoop(m, s.rest_m[ring], a);
     const WallPressure two = share > 0 ? hoop(m, s.rest_m[ring + 1], a) : one;
@@ -140,7 +140,7 @@ void move_rings(const StentModel& m, const PlaqueModel& plaque, const StentInput
   bool any_on = false;
   for (int k = 0; k < m.rings; ++k) {
     const double at = ring_middle(m, s, k);
-    const double a = in.balloon ? radius_at(*in.balloon, *in.balloon_state, in.balloon_middle_m, at) : 0;
+    const double a = in.balloon ? radius_at(*in.balloon, *in.balloon_state, at) : 0;
     double& r = s.radius_m[k];
     const WallPressure own = hoop(m, s.rest_m[k], r);
     WallPressure outside;
@@ -210,7 +210,7 @@ void step(const StentModel& m, const PlaqueModel& plaque, const StentInputs& in,
           PlaqueState& wall) {
   if (s.where == StentState::lost) return;
   if (s.where == StentState::on_balloon) {
-    s.middle_m = in.balloon_middle_m + (in.balloon_state ? in.balloon_state->slip_m : 0);
+    if (in.balloon_state) s.middle_m = in.balloon_state->seat_m;
     // Pulled against an edge it slides on its balloon, and comes off once half of it has.
     if (const double over = std::fabs(in.drag_N) - m.held_N; over > 0 && s.radius_m[m.rings / 2] < 1.2 * m.crimped_m)
       s.shift_m += std::copysign(over * dt * 5e-3, in.drag_N);

@@ -70,7 +70,6 @@ struct StentInputs {
   const VesselPath* path = nullptr;
   const BalloonModel* balloon = nullptr;  ///< inside it, or null
   const BalloonState* balloon_state = nullptr;
-  double balloon_middle_m = 0;
   double drag_N = 0;  ///< Force of an edge that catches the crimped stent, along its balloon; negative: proximally.
   double edge_m = -1e9,
          edge_N = 0;  ///< Force of a guide's or balloon's edge that pushes the deployed stent distally, from edge_m.
@@ -83,7 +82,7 @@ struct StentScratch {
 /// Adds a stent's resistance to a balloon's sleeve; call before the balloon's step. `sleeve` points into `scratch`;
 /// empty at first.
 void add_sleeve(const StentModel& model, const StentState& state, const BalloonModel& balloon,
-                const BalloonState& balloon_state, double balloon_middle_m, StentScratch& scratch, Sleeve& sleeve);
+                const BalloonState& balloon_state, StentScratch& scratch, Sleeve& sleeve);
 
 /// After the balloon's step: rings follow the balloon or spring back, points are relaxed, the wall is held open.
 void step(const StentModel& model, const PlaqueModel& plaque, const StentInputs& inputs, double dt_s, StentState& state,

@@ -65,15 +65,27 @@ PathFrame PathFrames::at(double s_m) const {
   return f;
 }
 
+PathFrame PathFrames::go_to(double s_m) {
+  carry(first_, path_.at(s_m).index, along_, side_);
+  return at(s_m);
+}
+
 PathFrame frame_at(const LumenMap& map, const VesselPath& path, double s_m, const LumenMoment& moment) {
   return PathFrames(map, path, s_m, moment).at(s_m);
 }
 
 std::vector<Eigen::Vector3d> points_on_path(const StentModel& m, const StentState& s, const LumenMap& map,
-                                            const VesselPath& path, const LumenMoment& moment) {
+                                            const VesselPath& path, const LumenMoment& moment,
+                                            const std::function<Eigen::Vector2d(double)>& aside_m) {
   std::vector<Eigen::Vector3d> out;
   const PathFrames frames(map, path, span_of(s).first, moment);
-  for (int i = 0; i < m.points(); ++i) out.push_back(point_on_path(m, s, frames, i));
+  for (int i = 0; i < m.points(); ++i) {
+    out.push_back(point_on_path(m, s, frames, i));
+    if (!aside_m) continue;
+    const double at_m = s.middle_m + s.shift_m + s.along_m[i];
+    const PathFrame f = frames.at(at_m);
+    out.back() += aside_m(at_m).x() * f.side + aside_m(at_m).y() * f.up;
+  }
   return out;
 }
 

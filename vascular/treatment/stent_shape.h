@@ -1,5 +1,7 @@
 #pragma once
 /// A stent's points and struts in the patient frame: on its balloon, or moving with the wall.
+#include <functional>
+
 #include "vascular/treatment/stent.h"
 #include "vascular/treatment/wall_shape.h"
 
@@ -20,6 +22,8 @@ class PathFrames {
   /// `least_m`: no place lies before it.
   PathFrames(const LumenMap& map, const VesselPath& path, double least_m, const LumenMoment& moment);
   PathFrame at(double s_m) const;
+  /// That, and later places are no longer before it.
+  PathFrame go_to(double s_m);
 
  private:
   Eigen::Vector3d centre(int i) const;
@@ -35,9 +39,10 @@ class PathFrames {
 
 /// Position of one of its points from the path alone; `frames` begins at or before it.
 Eigen::Vector3d point_on_path(const StentModel& model, const StentState& state, const PathFrames& frames, int point);
-/// That of all of them.
+/// That of all of them; `aside_m`, if there is one: how far the stent lies aside at a position, along side and up.
 std::vector<Eigen::Vector3d> points_on_path(const StentModel& model, const StentState& state, const LumenMap& map,
-                                            const VesselPath& path, const LumenMoment& moment);
+                                            const VesselPath& path, const LumenMoment& moment,
+                                            const std::function<Eigen::Vector2d(double s_m)>& aside_m = {});
 
 /// Whether every point is attached to the wall (stent_ties.h).
 bool is_tied(const StentState& state);

@@ -188,16 +188,18 @@ void change_balloon(const TreatmentModel& model, const TreatmentInputs& in, Trea
     s.balloon_in = in.balloon;
     if (in.balloon >= 0) s.balloon = make_balloon_state(model.balloons[in.balloon]);
   }
+  if (in.balloon < 0) s.balloon.held = false;
+  follow_shaft(in.shaft.middle_m, s.balloon);
   // A crimped stent moves with its balloon; set before the balloon's step.
   if (const int own = own_stent(model, in); own >= 0 && s.stents[own].where == StentState::on_balloon)
-    s.stents[own].branch = in.branch, s.stents[own].middle_m = in.middle_m + s.balloon.slip_m;
+    s.stents[own].branch = in.branch, s.stents[own].middle_m = s.balloon.seat_m;
 }
 
 /// Whether an unopened stent blocks the balloon's position.
 bool is_blocked(const TreatmentModel& model, const TreatmentInputs& in, const TreatmentState& s) {
   const BalloonModel* balloon = balloon_of(model, in);
   if (!balloon || !path_of(model, in)) return false;
-  const double end = in.middle_m + balloon->length_m / 2 + balloon->shoulder_m;
+  const double end = s.balloon.seat_m + balloon->length_m / 2 + balloon->shoulder_m;
   for (std::size_t i = 0; i < s.stents.size(); ++i)
     if (is_beside(model, in, s.stents[i]) && narrowest_m(model.stents[i], s.stents[i], -1, end) < balloon->folded_m)
       return true;
@@ -224,14 +226,14 @@ BalloonReport inflate(const TreatmentModel& model, const TreatmentInputs& in, do
   for (std::size_t i = 0; i < s.stents.size(); ++i)
     if (is_beside(model, in, s.stents[i]) ||
         (static_cast<int>(i) == own && s.stents[i].where == StentState::on_balloon))
-      add_sleeve(model.stents[i], s.stents[i], balloon, s.balloon, in.middle_m, x.stent, sleeve);
+      add_sleeve(model.stents[i], s.stents[i], balloon, s.balloon, x.stent, sleeve);
   const BalloonReport report =
-      step(balloon, model.plaque, {path, in.middle_m, in.gauge_Pa, sleeve}, dt, s.balloon, s.wall, x.balloon);
+      step(balloon, model.plaque, {path, in.shaft, in.gauge_Pa, sleeve}, dt, s.balloon, s.wall, x.balloon);
   if (report.touches || report.spilt_m3 > 0)
     judge_stretch(model.injury, model.plaque, s.wall, balloon.length_m, whole && s.balloon.burst,
                   vessels.physiology.heart.time_s, s.injury);
   if (report.spilt_m3 > 0 && path)
-    spill(*path, in.middle_m, report.spilt_m3, balloon.iodine_kg_m3, vessels.flow.tree.cells.size(),
+    spill(*path, s.balloon.seat_m, report.spilt_m3, balloon.iodine_kg_m3, vessels.flow.tree.cells.size(),
           vessels.physiology.contrast);
   return report;
 }
@@ -249,7 +251,6 @@ void step_stents(const TreatmentModel& model, const TreatmentInputs& in, bool bl
          {.path = stent.branch >= 0 ? &model.paths[static_cast<std::size_t>(stent.branch)] : nullptr,
           .balloon = within ? balloon : nullptr,
           .balloon_state = &s.balloon,
-          .balloon_middle_m = in.middle_m,
           .drag_N = mine ? in.drag_N : 0,
           .edge_m = in.edge_m,
           .edge_N = is_beside(model, in, stent) ? in.edge_N : 0},
@@ -270,7 +271,7 @@ void fill_lumen(const TreatmentModel& model, const TreatmentInputs& in, bool blo
   if (!balloon || !path || blocked) return;
   for (std::size_t k = 0; k < path->cells.size(); ++k) {
     double& occupied = occupied_m[path->cells[k]];
-    occupied = std::max(occupied, radius_at(*balloon, s.balloon, in.middle_m, path->s_m[k]));
+    occupied = std::max(occupied, radius_at(*balloon, s.balloon, path->s_m[k]));
   }
 }
 
@@ -289,6 +290,7 @@ TreatmentState make_state(const TreatmentModel& model, const FlowTree& tree) {
   TreatmentState s;
   s.wall = make_plaque_state(model.plaque);
   s.balloon.radius_m.assign(balloon_spheres, 0);
+  s.balloon.aside_m.assign(balloon_spheres, Eigen::Vector2d::Zero());
   for (const StentModel& stent : model.stents) s.stents.push_back(make_stent_state(stent));
   s.spasm.assign(tree.branches.size(), 0);
   s.drugs = make_state(model.drugs);
@@ -309,6 +311,7 @@ TreatmentReport step(const TreatmentModel& model, const TreatmentInputs& in, dou
   change_balloon(model, in, s);
   report.blocked = is_blocked(model, in, s);
   const int injured = s.injury.count;
+  if (report.blocked) s.balloon.held = false;
   if (in.balloon >= 0 && !report.blocked) report.balloon = inflate(model, in, dt, s, vessels, x);
   step_stents(model, in, report.blocked, dt, s);
   if (in.wire_tip_cell >= 0)

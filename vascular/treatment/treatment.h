@@ -36,9 +36,9 @@ struct Provocation {
 };
 
 struct TreatmentInputs {
-  int balloon = -1;     ///< index of the balloon in the vessel; -1: none. A new one starts deflated
-  int branch = -1;      ///< branch whose path contains it (from cell_locator.h); -1: not in the coronaries
-  double middle_m = 0;  ///< midpoint of its markers along that path
+  int balloon = -1;  ///< index of the balloon in the vessel; -1: none. A new one starts deflated
+  int branch = -1;   ///< branch whose path contains it (from cell_locator.h); -1: not in the coronaries
+  ShaftPlace shaft;  ///< of it along that path
   double gauge_Pa = 0;
   double drag_N = 0;                     ///< StentInputs
   double edge_m = -1e9, edge_N = 0;      ///< StentInputs

@@ -11,11 +11,6 @@ namespace {
 
 constexpr double outside_m = 1e-3;  // beyond its radius, at which a touched wall is still the artery's
 
-/// The balloon's skin as its chart has it: E t = r^2 dp / dr.
-double stretch_N_m(const vascular::BalloonModel& balloon) {
-  return balloon.nominal_m * balloon.nominal_m / 2 / balloon.growth_m_Pa;
-}
-
 void add_balloon(const CouplingModel& model, const vascular::TreatmentState& treatment, double phase,
                  const CouplingState& s, CouplingScratch& x) {
   const vascular::BalloonModel& balloon = model.treatment.balloons[static_cast<std::size_t>(s.balloon)];
@@ -24,10 +19,10 @@ void add_balloon(const CouplingModel& model, const vascular::TreatmentState& tre
     return model.vessel.coronaries->map.centre(static_cast<std::size_t>(path.cells[k]), {.phase = phase});
   };
   for (std::size_t k = 2; k < path.cells.size(); ++k) {
-    const double radius_m = radius_at(balloon, treatment.balloon, seat_m(s), path.s_m[k - 1]);
+    const double radius_m = radius_at(balloon, treatment.balloon, path.s_m[k - 1]);
     if (radius_m < balloon.refolded_m) continue;
     const vascular::PressurisedTube tube =
-        vascular::pressurised_tube(radius_m, treatment.balloon.pressure_Pa, stretch_N_m(balloon));
+        vascular::pressurised_tube(radius_m, treatment.balloon.pressure_Pa, skin_N_m(balloon));
     if (tube.EI_N_m2 > 0)
       x.tubes.push_back({path.cells[k], tube, vascular::curvature_of(centre(k - 2), centre(k - 1), centre(k))});
   }

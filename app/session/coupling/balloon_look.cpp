@@ -37,15 +37,43 @@ std::optional<vascular::Seat> seat_at_ostium(const CouplingModel& model, const v
   return vascular::Seat{.branch = cell.branch, .middle_m = far_m - between_m / 2, .offset_m = far.distance_m};
 }
 
+/// How the shaft and the artery lie at each of the balloon's spheres.
+void find_shaft(const CouplingModel& model, const core::State& rods, int tool, const vascular::LumenMoment& moment,
+                const CouplingScratch& x, CouplingState& s) {
+  const auto t = static_cast<std::size_t>(tool);
+  const vascular::VesselPath& path = model.treatment.paths[static_cast<std::size_t>(s.branch)];
+  const vascular::BalloonModel& own = model.treatment.balloons[static_cast<std::size_t>(s.balloon)];
+  const data::Instrument& instrument = model.tools[t].instrument;
+  const double near_m = marker_from_tip_m(instrument, 0) + own.shoulder_m,
+               far_m = std::max(0.0, marker_from_tip_m(instrument, 1) - own.shoulder_m);
+  const double first_m = s.middle_m - own.length_m / 2 - own.shoulder_m;
+  vascular::PathFrames frames(model.vessel.coronaries->map, path, first_m, moment);
+  for (std::size_t i = 0; i < vascular::balloon_spheres; ++i) {
+    const double part = static_cast<double>(i) / (vascular::balloon_spheres - 1),
+                 at_m = first_m + spacing_m(own) * static_cast<double>(i);
+    const vascular::PathFrame frame = frames.go_to(at_m);
+    const auto across = [&](const Vector3d& v) { return Eigen::Vector2d(v.dot(frame.side), v.dot(frame.up)); };
+    const Vector3d p = point_from_tip(model.rods.rods[t], rods.rods[t], near_m + part * (far_m - near_m));
+    s.aside_m[i] = across(p - frame.centre);
+    const int k = std::clamp(path.at(at_m).index, 1, static_cast<int>(path.cells.size()) - 2);
+    const auto centre = [&](int index) -> const Vector3d& {
+      return x.locator.centre(path.cells[static_cast<std::size_t>(index)]);
+    };
+    s.bend_1_m[i] = across(vascular::curvature_of(centre(k - 1), centre(k), centre(k + 1)));
+  }
+}
+
 }  // namespace
 
 void look_at_balloon(const CouplingModel& model, const core::State& rods, const vascular::TreatmentState& treatment,
-                     const core::StepReport& report, CouplingScratch& x, CouplingState& s) {
+                     const core::StepReport& report, const vascular::LumenMoment& moment, CouplingScratch& x,
+                     CouplingState& s) {
   const int t = balloon_tool(model, rods);
   const int was = s.balloon, was_branch = s.branch;
   s.balloon = t < 0 ? -1 : model.balloon_of[static_cast<std::size_t>(t)];
   s.branch = -1, s.drag_N = 0;
-  if (s.balloon != was) s.held = s.stent_out = s.caught = false, s.caught_N = 0;
+  const bool held = s.balloon == was && treatment.balloon.held;
+  if (s.balloon != was) s.stent_out = s.caught = false, s.caught_N = 0;
   if (t < 0) return;
   const core::Rod& rod = model.rods.rods[static_cast<std::size_t>(t)];
   const core::RodState& own = rods.rods[static_cast<std::size_t>(t)];
@@ -55,13 +83,13 @@ void look_at_balloon(const CouplingModel& model, const core::State& rods, const 
   const Vector3d p_near = point_from_tip(rod, own, near_m), p_far = point_from_tip(rod, own, far_m);
   const double between_m = near_m - far_m;
   const int wire_cell = s.wire_cell;
-  auto seat = seat_at_ostium(model, x.locator, p_far, between_m, s.held ? 0 : between_m / 2, wire_cell);
+  auto seat = seat_at_ostium(model, x.locator, p_far, between_m, held ? 0 : between_m / 2, wire_cell);
   if (!seat) seat = seat_of(x.locator, model.physiology.flow.tree, model.treatment.paths, p_near, p_far, wire_cell);
   // What the wall holds is not let go of because a beat throws its shaft aside for a moment; nor does a balloon that is
   // open in a stent go into a side branch, which it would tear.
   const bool aside = !seat || seat->branch != was_branch;
   const bool stays =
-      s.held ||
+      held ||
       (s.balloon == was && !is_empty(model.treatment.balloons[static_cast<std::size_t>(s.balloon)], treatment.balloon));
   if (aside && stays && was_branch >= 0 && x.locator.nearest(p_far, near_heart_m).cell >= 0) {
     s.branch = was_branch;
@@ -69,6 +97,7 @@ void look_at_balloon(const CouplingModel& model, const core::State& rods, const 
   }
   if (!seat) return;
   s.branch = seat->branch, s.middle_m = seat->middle_m;
+  if (held || treatment.balloon.pressure_Pa > 0) find_shaft(model, rods, t, moment, x, s);
   const Vector3d along = (p_far - p_near).normalized();
   for (const core::Touch& touch : report.touches) {
     if (touch.rod != t) continue;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "app/session/coupling/looks.h"
 #include "app/session/coupling/tool_geometry.h"
@@ -26,6 +27,7 @@ constexpr double manifold_m3 = 0.3e-6;  // of the line ahead of the guide
 CouplingState make_coupling(const Vessel& vessel) {
   CouplingState state;
   if (vessel.coronaries) state.shaft_m.assign(vessel.coronaries->tree().cells.size(), 0);
+  state.aside_m.assign(vascular::balloon_spheres, Eigen::Vector2d::Zero()), state.bend_1_m = state.aside_m;
   return state;
 }
 
@@ -108,7 +110,7 @@ void look(const CouplingModel& model, const core::State& rods, const vascular::T
   const Vector3d root_shift = vascular::contraction(moment.phase) * motion.root_displacement() +
                               motion.breath_displacement(marks.p_annulus, moment.breath);
   look_at_shafts(model, rods, x, s);
-  look_at_balloon(model, rods, treatment, report, x, s);
+  look_at_balloon(model, rods, treatment, report, moment, x, s);
   look_at_guide(model, rods, report, moment, root_shift, x, s);
   look_at_crimped_stent(model, rods, treatment, s);
   look_at_edge(model, rods, treatment, x, s);
@@ -145,7 +147,7 @@ vascular::TreatmentInputs treatment_inputs(const CouplingModel& model, const Del
   vascular::TreatmentInputs out;
   out.balloon = s.balloon;
   out.branch = s.branch;
-  out.middle_m = seat_m(s);
+  out.shaft = {s.middle_m, s.aside_m, s.bend_1_m, std::numeric_limits<double>::infinity()};
   out.gauge_Pa = inputs.gauge_Pa;
   out.drag_N = s.drag_N + s.caught_N;
   out.edge_m = s.edge_m, out.edge_N = s.edge_N;

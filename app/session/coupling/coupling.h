@@ -69,14 +69,13 @@ void forget_what_is_given_once(DeliveryInputs& inputs);
 
 struct CouplingState {
   // The balloon in the body:
-  int balloon = -1;        ///< of TreatmentModel::balloons; -1: none is
-  int branch = -1;         ///< its seat (cell_locator.h); -1: not in a single artery
-  double middle_m = 0;     ///< along the path
-  bool held = false;       ///< the wall holds it, with its middle at anchor_m
-  double anchor_m = 0;     ///< along the path
-  bool blocked = false;    ///< an unexpanded stent blocks its way
-  double drag_N = 0;       ///< of the wall on the folded device, distally
-  bool stent_out = false;  ///< its crimped stent has left the guide and has not re-entered it
+  int balloon = -1;                                ///< of TreatmentModel::balloons; -1: none is
+  int branch = -1;                                 ///< its seat (cell_locator.h); -1: not in a single artery
+  double middle_m = 0;                             ///< of its markers along the path, by its shaft
+  std::vector<Eigen::Vector2d> aside_m, bend_1_m;  ///< vascular::ShaftPlace (balloon_spheres)
+  bool blocked = false;                            ///< an unexpanded stent blocks its way
+  double drag_N = 0;                               ///< of the wall on the folded device, distally
+  bool stent_out = false;                          ///< its crimped stent has left the guide and has not re-entered it
   bool caught = false;  ///< while being drawn back, the stent hangs on the guide's edge, which pushes it distally with
   double caught_N = 0;
   // The guide: the catheter that contrast is injected through.
@@ -101,8 +100,8 @@ constexpr auto fields(const CouplingState*) {
   return std::tuple{core::field("balloon", &S::balloon),
                     core::field("branch", &S::branch),
                     core::field("middle_m", &S::middle_m),
-                    core::field("held", &S::held),
-                    core::field("anchor_m", &S::anchor_m),
+                    core::field("aside_m", &S::aside_m),
+                    core::field("bend_1_m", &S::bend_1_m),
                     core::field("blocked", &S::blocked),
                     core::field("drag_N", &S::drag_N),
                     core::field("stent_out", &S::stent_out),
@@ -124,8 +123,6 @@ constexpr auto fields(const CouplingState*) {
                     core::field("shaft_m", &S::shaft_m),
                     core::field("wall_cursor", &S::wall_cursor)};
 }
-/// Position of the balloon's middle along its path: held by the wall, or given by its shaft.
-inline double seat_m(const CouplingState& s) { return s.held ? s.anchor_m : s.middle_m; }
 CouplingState make_coupling(const Vessel& vessel);
 
 /// Adds the balloons and stents that tools carry to `model`. Returns each tool's balloon, or -1. Throws LoadError for

@@ -23,7 +23,8 @@ void look_at_wires(const CouplingModel& model, const core::State& rods, const Ei
 
 // balloon_look.cpp: where the balloon sits, what its crimped stent hangs on.
 void look_at_balloon(const CouplingModel& model, const core::State& rods, const vascular::TreatmentState& treatment,
-                     const core::StepReport& report, CouplingScratch& x, CouplingState& s);
+                     const core::StepReport& report, const vascular::LumenMoment& moment, CouplingScratch& x,
+                     CouplingState& s);
 /// A crimped stent that is drawn back into the guide hangs on its edge if the shaft leaves the guide at an angle, or if
 /// it is no longer crimped. The edge holds it; what it cannot be pulled off its balloon with, the shaft feels.
 void look_at_crimped_stent(const CouplingModel& model, const core::State& rods,

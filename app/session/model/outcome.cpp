@@ -77,8 +77,8 @@ double supply_behind_lesion(const SessionModel& model, const SessionState& state
 std::optional<double> balloon_from_lesion_m(const SessionModel& model, const SessionState& state, int lesion) {
   const Plan& plan = plan_of(model, lesion);
   const CouplingState& b = state.coupling;
-  if (b.balloon < 0 || !in_artery_of(plan, model, b.branch, seat_m(b))) return {};
-  return seat_m(b) - (plan.from_m + plan.to_m) / 2;
+  if (b.balloon < 0 || !in_artery_of(plan, model, b.branch, state.treatment.balloon.seat_m)) return {};
+  return state.treatment.balloon.seat_m - (plan.from_m + plan.to_m) / 2;
 }
 
 std::optional<Stretch> stented(const SessionModel& model, const SessionState& state, int lesion) {
@@ -207,7 +207,7 @@ double balloon_artery_ratio(const SessionModel& model, const SessionState& state
   double ratio = 0;
   for (int i = 0; i < vascular::balloon_spheres; ++i) {
     if (sphere_share(balloon, i) < 1) continue;
-    const auto at = path.at(sphere_position(balloon, state.treatment.balloon, seat_m(b), i));
+    const auto at = path.at(sphere_position(balloon, state.treatment.balloon, i));
     const vascular::FlowCell& cell =
         model.physiology.flow.tree.cells[static_cast<std::size_t>(path.cells[static_cast<std::size_t>(at.index)])];
     ratio = std::max(ratio, state.treatment.balloon.radius_m[static_cast<std::size_t>(i)] / cell.healthy_m);

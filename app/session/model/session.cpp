@@ -275,7 +275,7 @@ void hold_shafts(const SessionModel& model, const SessionState& state, core::Inp
   for (std::size_t t = 0; t < model.tools.size(); ++t) {
     const int tool = static_cast<int>(t);
     core.rods[t].load = load_on_shaft(coupling, state.rods, state.coupling, tool);
-    core.rods[t].tether = tether_on_shaft(coupling, state.treatment, state.coupling, tool, end);
+    core.rods[t].tethers = tethers_on_shaft(coupling, state.treatment, state.coupling, tool, end);
   }
 }
 
@@ -313,7 +313,6 @@ void treat(const SessionModel& model, const SessionInputs& inputs, bool R_wave, 
     give_way(*model.bed, look_every * model.step_s(), *x.coupling, state.bed, state.wall_aside_P);
   }
   tie_stents(model, state);
-  hold_balloon(coupling, state.rods, report.treatment.balloon, moment(model, state), state.coupling);
   set_physiology_inputs(coupling, inputs.delivery, state.coupling, x.physiology_inputs);
   x.physiology_inputs.hyperaemia = state.treatment.drugs.adenosine;
   const core::InPhase blood_phase(x.rods.clock, moving_blood);

@@ -120,6 +120,12 @@ double widest_mm(const PatientNow& x) {
   return x.balloon ? widest : 0;
 }
 
+double most_aside_mm(const PatientNow& x) {
+  double most = 0;
+  for (const Eigen::Vector2d& aside_m : x.state.treatment.balloon.aside_m) most = std::max(most, 1e3 * aside_m.norm());
+  return x.balloon ? most : 0;
+}
+
 /// "The lesion" is the first of the case; positions along its artery are measured from its proximal end.
 constexpr Signal<PatientNow> of_a_patient[] = {
     {"ecg_II_mV", "mV", "lead II",
@@ -145,6 +151,12 @@ constexpr Signal<PatientNow> of_a_patient[] = {
      [](const PatientNow& x) { return balloon_artery_ratio(x.model, x.state); }},
     {"waist", "1", "narrowest over widest of the balloon between its markers",
      [](const PatientNow& x) { return x.balloon ? waist(*x.balloon, x.state.treatment.balloon) : none; }},
+    {"balloon_aside_mm", "mm", "most that its middle line lies aside of the artery's, once it is filled",
+     most_aside_mm},
+    {"balloon_slid_mm", "mm", "how far it lies off its place on its shaft, along the artery, distally",
+     [](const PatientNow& x) {
+       return x.balloon ? 1e3 * (x.state.treatment.balloon.seat_m - x.state.coupling.middle_m) : none;
+     }},
     {"balloon_from_mm", "mm", "its proximal end, while no other lesion is nearer",
      [](const PatientNow& x) { return x.balloon_end_mm(-1); }},
     {"balloon_to_mm", "mm", "its distal end", [](const PatientNow& x) { return x.balloon_end_mm(1); }},

@@ -90,7 +90,7 @@ std::vector<double> occupied_m(const SessionModel& model, const SessionState& st
   for (std::size_t k = 0; k < path.cells.size(); ++k) {
     double& own = out[static_cast<std::size_t>(path.cells[k])];
     own = std::max(own, radius_at(model.treatment.balloons[static_cast<std::size_t>(b.balloon)],
-                                  state.treatment.balloon, seat_m(b), path.s_m[k]));
+                                  state.treatment.balloon, path.s_m[k]));
   }
   return out;
 }
@@ -103,17 +103,20 @@ void add_treatment(const SessionModel& model, const SessionState& state, fluoro:
     return model.treatment.paths[static_cast<std::size_t>(branch)];
   };
   const int own = b.balloon < 0 ? -1 : model.treatment.stent_on[static_cast<std::size_t>(b.balloon)];
+  const std::function<Eigen::Vector2d(double)> none, aside_m = [&](double s_m) {
+    return aside_at_m(model.treatment.balloons[static_cast<std::size_t>(b.balloon)], state.treatment.balloon, s_m);
+  };
   for (std::size_t i = 0; i < state.treatment.stents.size(); ++i) {
     const vascular::StentState& stent = state.treatment.stents[i];
     const bool opening = static_cast<int>(i) == own && stent.where == vascular::StentState::on_balloon &&
                          state.treatment.balloon.was_filled && b.branch >= 0;
     if (stent.branch >= 0 && (stent.where == vascular::StentState::deployed || opening))
       add_stent(model.treatment.stents[i], stent, path_of(stent.branch), *c.patient, c.map, *c.shape,
-                state.blood.radius_m, at, scene);
+                state.blood.radius_m, at, opening ? aside_m : none, scene);
   }
   if (b.balloon >= 0 && b.branch >= 0)
     add_balloon(model.treatment.balloons[static_cast<std::size_t>(b.balloon)], state.treatment.balloon,
-                path_of(b.branch), b.middle_m, c.map, at, false, scene);  // its shaft draws the markers
+                path_of(b.branch), c.map, at, false, scene);  // its shaft draws the markers
   add_pools(state.treatment.injury, c.map, state.blood.radius_m, at, scene);
 }
 

@@ -63,8 +63,8 @@ inline const std::vector<DesignNumber<vascular::BalloonDesign>> balloon_design_n
      "the shaft's resistance to its filling in Pa s/m3"},
     {"viscous_Pa_s_m", &vascular::BalloonDesign::viscous_Pa_s_m, 1, 1e6, 1e11, "the damping of its radius in Pa s/m"},
     {"friction", &vascular::BalloonDesign::friction, 1, 0, 2, "friction against the wall"},
-    {"grip_N_m", &vascular::BalloonDesign::grip_N_m, 1, 1, 1e5, "the stiffness in N/m with which its shaft holds it"},
-    {"slide_N_s_m", &vascular::BalloonDesign::slide_N_s_m, 1, 1, 1e6,
-     "the damping in N s/m with which its shaft holds it"}};
+    {"bond_N_m", &vascular::BalloonDesign::bond_N_m, 1, 1, 1e5,
+     "the stiffness in N/m with which its bonds hold it on its shaft"},
+    {"slide_N_s_m", &vascular::BalloonDesign::slide_N_s_m, 1, 1, 1e6, "the damping in N s/m with which it slides"}};
 
 }  // namespace ostium::data

@@ -255,7 +255,7 @@ TEST(Handling, BalloonsAreEmptyAsTheyMoveAndNotHeldForLong) {
   run.state.coupling.branch = branch;
   run.state.treatment.balloon.pressure_Pa = 12 * 101325;
   const auto reach = [&](double beyond_m) {
-    run.state.coupling.middle_m = middle + half_stent + beyond_m - half_balloon;
+    run.state.treatment.balloon.seat_m = middle + half_stent + beyond_m - half_balloon;
   };
   reach(1e-3);
   play(5);

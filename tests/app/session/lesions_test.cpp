@@ -112,7 +112,7 @@ TEST(Lesions, EachLesionIsJudgedByTheStentsAtIt) {
   EXPECT_NEAR(stented(model, run.state, 0)->to_m, 35e-3, 0.5e-3) << "not to the end of the other one's";
   EXPECT_NEAR(*worst_of_lesions(model, run.state).margin_m, 3e-3, 0.5e-3);
 
-  run.state.coupling.balloon = 1, run.state.coupling.branch = artery, run.state.coupling.middle_m = middle_m(1);
+  run.state.coupling.balloon = 1, run.state.coupling.branch = artery, run.state.treatment.balloon.seat_m = middle_m(1);
   EXPECT_NEAR(*balloon_from_lesion_m(model, run.state, 1), 0, 1e-6);
   EXPECT_NEAR(*balloon_from_lesion_m(model, run.state, 0), 41e-3, 0.5e-3);
 }

@@ -37,7 +37,7 @@ TEST(Treatment, ABalloonOpensTheLesionAndTheWallThatRodsMeet) {
   EXPECT_GT(run.state.treatment.balloon.pressure_Pa, 3 * 101325.0);
   EXPECT_GT(balloon_artery_ratio(run.model, run.state), 0.6);
   EXPECT_LT(supply_behind_lesion(run.model, run.state), open_flow);
-  EXPECT_GT(run.state.coupling.held, 0) << "the wall holds it";
+  EXPECT_TRUE(run.state.treatment.balloon.held) << "the wall holds it";
 
   // A state from here goes on to the bit with a fresh scratch: the opened wall is made anew of it.
   SessionState other = run.state;
@@ -213,9 +213,9 @@ TEST(Treatment, AnOpenBalloonStaysInItsArtery) {
   const Eigen::Vector3d sideways = 4.5e-3 * tip_direction(run.model, run.state, balloon).unitOrthogonal();
   for (int i = 0; i <= model.rods.rods[balloon].elements; ++i)
     aside.rods[balloon].position.set(i, run.state.rods.rods[balloon].position[i] + sideways);
-  const auto branch_of = [&](const vascular::TreatmentState& treatment) {
+  const auto branch_of = [&](vascular::TreatmentState treatment) {
+    treatment.balloon.held = false;  // within a stent it meets no wall
     CouplingState coupling = run.state.coupling;
-    coupling.held = false;  // within a stent it meets no wall
     look(model, aside, treatment, report, {.phase = run.state.blood.heart.phase}, scratch, coupling);
     return coupling.branch;
   };
@@ -321,7 +321,7 @@ TEST(Treatment, AWithdrawalIsNotDoneBeforeItsHandHasMoved) {
   report.tools.resize(run.model.tools.size());
   std::vector<OperatorEvent> events;
   const auto outcome = [&](double beyond_m) {
-    run.state.coupling.middle_m = middle + beyond_m;
+    run.state.treatment.balloon.seat_m = middle + beyond_m;
     return decide(run.plan, run.model, run.state, report, run.hands, run.inputs, events);
   };
   for (int i = 0; i < 3; ++i) EXPECT_EQ(outcome(10e-3), Outcome::running) << "it lies beyond, and the hand is late";

@@ -146,7 +146,7 @@ TEST(CellLocator, StepsOfPhysiologyAndTreatmentAllocateNothing) {
   PhysiologyInputs inputs;
   inputs.contrast.tip = {TipPlace::coronary, w.tree.branches[w.tree.branch("RCA")].first, 1};
   inputs.contrast.injection_m3_s = 2e-6;
-  TreatmentInputs device{.balloon = 0, .branch = w.tree.branch("RCA"), .middle_m = 48e-3, .gauge_Pa = 0};
+  TreatmentInputs device{.balloon = 0, .branch = w.tree.branch("RCA"), .shaft = {.middle_m = 48e-3}, .gauge_Pa = 0};
   PhysiologyScratch blood_scratch;
   TreatmentScratch scratch;
   const auto run = [&](int steps) {

@@ -60,7 +60,7 @@ struct Bench {
     model.paths = all_paths(tree);
     blood = make_state(physiology);
     state = make_state(model, tree);
-    device.balloon = 0, device.branch = 0, device.middle_m = middle_m + o.shift_mm * mm;
+    device.balloon = 0, device.branch = 0, device.shaft.middle_m = middle_m + o.shift_mm * mm;
   }
   void run(double gauge_atm, double seconds) {
     device.gauge_Pa = gauge_atm * atm;
@@ -71,6 +71,8 @@ struct Bench {
   }
   /// Inflates, holds, and deflates under vacuum.
   void inflate(double gauge_atm) { run(gauge_atm, 5), run(-1, 9), run(0, 0.1); }
+  /// How far the balloon has slid along the artery, on its shaft.
+  double slip_m() const { return state.balloon.seat_m - device.shaft.middle_m; }
   double mld_mm() const {
     return 2e3 * *std::min_element(state.wall.radius_m.begin() + 50, state.wall.radius_m.begin() + 150);
   }

@@ -85,10 +85,10 @@ TEST(Balloon, AShaftsTipOpensANarrowingElastically) {
   const double narrow_mm = bench.mld_mm();
   bench.run(0, 0.1);
   const std::vector<double>& radius_m = bench.state.wall.radius_m;
-  const double tip_at_m = bench.device.middle_m + 7.5 * mm + 3.5 * mm;
+  const double tip_at_m = bench.device.shaft.middle_m + 7.5 * mm + 3.5 * mm;
   for (std::size_t k = 0; k < radius_m.size(); ++k) {
     const double s_m = bench.physiology.flow.tree.cells[k].s_m;
-    if (s_m > bench.device.middle_m && s_m < tip_at_m) {
+    if (s_m > bench.device.shaft.middle_m && s_m < tip_at_m) {
       EXPECT_GT(radius_m[k], 0.3e-3);
     }
   }
@@ -114,7 +114,7 @@ TEST(Balloon, SlipsWhenItSitsOnAShoulder) {
                    m.balloons[0].friction *= friction;
                  }});
     bench.run(8, 6);
-    return bench.state.balloon.slip_m;
+    return bench.slip_m();
   };
   EXPECT_LT(std::fabs(slip(0, 1)), 0.2 * mm);
   EXPECT_GT(slip(8, 1), 0.5 * mm);  // out of the narrowing, in the direction in which it is already displaced
@@ -144,15 +144,15 @@ TEST(Balloon, OnAConeItSeedsAtTheAngleThatFrictionSays) {
               back = in_a_cone(-slope, 0.8 * slope), level = in_a_cone(0, 1e-4);
   const auto steep = [](const Bench& bench) { return bench.report.balloon.axial_N / bench.report.balloon.pressed_N; };
   EXPECT_NEAR(steep(held), slope, 0.05 * slope) << "what the wall pushes along, over what it presses";
-  EXPECT_LT(held.state.balloon.slip_m, 0.2 * mm) << "a little, while only its narrow end touches";
-  EXPECT_GT(sliding.state.balloon.slip_m, 2 * mm) << "towards the wider end";
-  EXPECT_LT(back.state.balloon.slip_m, -2 * mm);
+  EXPECT_LT(held.slip_m(), 0.8 * mm) << "a little, while only its narrow end touches";
+  EXPECT_GT(sliding.slip_m(), 2 * mm) << "towards the wider end";
+  EXPECT_LT(back.slip_m(), -2 * mm);
   // It stays where its shaft and friction hold it together.
   const BalloonReport& at = sliding.report.balloon;
   const BalloonModel& own = sliding.model.balloons[0];
-  EXPECT_NEAR(own.grip_N_m * sliding.state.balloon.slip_m, at.axial_N - own.friction * at.pressed_N,
+  EXPECT_NEAR(sliding.device.shaft.holds_N_m * sliding.slip_m(), at.axial_N - own.friction * at.pressed_N,
               0.05 * own.friction * at.pressed_N);
-  EXPECT_LT(std::fabs(level.state.balloon.slip_m), 0.02 * mm);
+  EXPECT_LT(std::fabs(level.slip_m()), 0.02 * mm);
 }
 
 TEST(Balloon, StopsTheFlowMeanwhile) {
