@@ -97,7 +97,7 @@ nlohmann::ordered_json balance(const data::Case& c, const vascular::ContrastStat
   return {{"case", c.name},
           {"injected_mL", s.injected_m3 / mL},
           {"iodine_g", 1e3 * s.injected_kg},
-          {"through_muscle_g", 1e3 * s.muscle_kg},
+          {"through_muscle_g", 1e3 * (s.muscle_kg[0] + s.muscle_kg[1])},
           {"down_aorta_g", 1e3 * s.carried_kg},
           {"iodine_balance", off}};
 }

@@ -100,7 +100,8 @@ double aorta_concentration(const ContrastModel& model, const ContrastState& s, i
 }
 
 double accounted_kg(const ContrastState& s) {
-  double sum = s.aspirated_kg + s.muscle_kg + s.carried_kg + s.outside_kg + s.sinus_kg[0] + s.sinus_kg[1];
+  double sum =
+      s.aspirated_kg + s.muscle_kg[0] + s.muscle_kg[1] + s.carried_kg + s.outside_kg + s.sinus_kg[0] + s.sinus_kg[1];
   for (const auto* part : {&s.line_kg, &s.sheath_kg, &s.aorta_kg})
     for (double m : *part) sum += m;
   return sum;

@@ -74,9 +74,9 @@ struct ContrastState {
   double injected_m3 = 0;            ///< volume out of the syringe
   double from_tip_kg = 0;            ///< out of the catheter
   double aspirated_kg = 0;
-  double muscle_kg = 0;   ///< washed out through the myocardium
-  double carried_kg = 0;  ///< lost down the aorta, or from a tip outside the heart
-  double outside_kg = 0;  ///< left the vessel through an injury
+  std::array<double, 2> muscle_kg{};  ///< that came into the myocardium: through the left, the right coronary
+  double carried_kg = 0;              ///< lost down the aorta, or from a tip outside the heart
+  double outside_kg = 0;              ///< left the vessel through an injury
 };
 constexpr auto fields(const ContrastState*) {
   using S = ContrastState;

@@ -75,17 +75,18 @@ void ContrastStep::run_branch(int b) {
 }
 
 void ContrastStep::leave(int c) {
+  const FlowTree& tree = now.flow.tree;
+  double& muscle_kg = s.muscle_kg[tree.branches[tree.cells[c].branch].territory == Territory::rca ? 1 : 0];
   double all = 0;
   for (int k = 0; k < layers; ++k) all += s.sheath_kg[k * n() + c];
   if (all < traces_kg) {
-    s.muscle_kg += all;
+    muscle_kg += all;
     for (int k = 0; k < layers; ++k) s.sheath_kg[k * n() + c] = 0;
     return;
   }
   const double mixing = std::max(model.mixes[c], mixing_now), V = volume(c);
   const double leak = std::max(0.0, now.state.leak_m3_s[c]) * dt / layers;
   double sides = 0;
-  const FlowTree& tree = now.flow.tree;
   for (int j = tree.side_first[c]; j < tree.side_first[c + 1]; ++j)
     sides += through(tree.branches[tree.sides[j]].first) / layers;
   for (int k = 0; k < layers; ++k) {
@@ -93,7 +94,7 @@ void ContrastStep::leave(int c) {
     const double with_leaving = model.share[k] * V + leak + sides;
     m += mixing * (with_leaving / (V + layers * (leak + sides)) * all - m);
     const double kg_m3 = m / with_leaving;
-    s.muscle_kg += kg_m3 * leak;
+    muscle_kg += kg_m3 * leak;
     for (int j = tree.side_first[c]; j < tree.side_first[c + 1]; ++j) {
       const int child = tree.sides[j];
       x.inlet[child] += kg_m3 * through(tree.branches[child].first) / layers;

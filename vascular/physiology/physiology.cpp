@@ -22,11 +22,16 @@ PhysiologyState make_state(const PhysiologyModel& model) {
   return s;
 }
 
+void burden(const PhysiologyModel& model, const PhysiologyState& s, CirculationInputs& body) {
+  weaken(s.ischaemia, body);
+  react(model.reaction, s.reaction, body);
+}
+
 ContrastReport step(const PhysiologyModel& model, const PhysiologyInputs& in, double dt_s, PhysiologyState& s,
                     PhysiologyScratch& x) {
   const int before = s.heart.beats;
   HeartInputs heart = in.heart;
-  weaken(s.ischaemia, heart.body);
+  burden(model, s, heart.body);
   step(model.heart, heart, dt_s, s.heart);
   return circulate(model, in, dt_s, s.heart.beats > before, s, x);
 }
@@ -49,8 +54,11 @@ ContrastReport circulate(const PhysiologyModel& model, const PhysiologyInputs& i
   step(model.flow, lumen, dt, s.flow, x.flow);
   step(model.ischaemia, supply(model.flow, s.flow), dt, s.ischaemia);
   step(model.awareness, s.ischaemia, s.heart.circulation.mean_Pa, dt, s.awareness);
+  const std::array<double, 2> muscle_kg = s.contrast.muscle_kg;
   const ContrastReport report = step(model.contrast, {model.flow, s.flow, lumen, s.heart.circulation.aortic_m3_s},
                                      in.contrast, dt, s.contrast, x.contrast);
+  step(model.reaction, {s.contrast.muscle_kg[0] - muscle_kg[0], s.contrast.muscle_kg[1] - muscle_kg[1]}, dt,
+       s.reaction);
   const double pushed_m3 = dt * (report.rate_m3_s - report.drawn_m3_s);
   const double came_m3 = step(model.air, model.contrast, model.flow, s.flow,
                               {pushed_m3, in.contrast.line.dead_m3, in.contrast.tip, now.aorta_Pa}, dt, s.air);

@@ -9,6 +9,7 @@
 #include "vascular/heart/heart.h"
 #include "vascular/physiology/air.h"
 #include "vascular/physiology/awareness.h"
+#include "vascular/physiology/contrast_reaction.h"
 
 namespace ostium::vascular {
 
@@ -22,6 +23,7 @@ struct PhysiologyModel {
   TipPressureModel line;
   AirModel air = {};
   AwarenessModel awareness = {};
+  ContrastReactionModel reaction = {};
 };
 /// `seed`: for random events and for the person's ECG response (0: the mean).
 PhysiologyModel make_physiology(const Patient& patient, std::uint64_t seed = 0);
@@ -43,20 +45,17 @@ struct PhysiologyState {
   TipPressureState line;
   AirState air;
   AwarenessState awareness;
+  ContrastReactionState reaction;
   std::vector<double> radius_m;  ///< (#cells) of the lumen
   double circulation_s = 0;      ///< since blood and contrast last advanced
 };
 constexpr auto fields(const PhysiologyState*) {
   using S = PhysiologyState;
-  return std::tuple{core::field("heart", &S::heart),
-                    core::field("ischaemia", &S::ischaemia),
-                    core::field("flow", &S::flow),
-                    core::field("contrast", &S::contrast),
-                    core::field("line", &S::line),
-                    core::field("air", &S::air),
-                    core::field("awareness", &S::awareness),
-                    core::field("radius_m", &S::radius_m),
-                    core::field("circulation_s", &S::circulation_s)};
+  return std::tuple{core::field("heart", &S::heart),         core::field("ischaemia", &S::ischaemia),
+                    core::field("flow", &S::flow),           core::field("contrast", &S::contrast),
+                    core::field("line", &S::line),           core::field("air", &S::air),
+                    core::field("awareness", &S::awareness), core::field("reaction", &S::reaction),
+                    core::field("radius_m", &S::radius_m),   core::field("circulation_s", &S::circulation_s)};
 }
 PhysiologyState make_state(const PhysiologyModel& model);
 
@@ -65,6 +64,9 @@ struct PhysiologyScratch {
   ContrastScratch contrast;
   std::vector<double> open;
 };
+
+/// What lack of blood and contrast in the muscle do to the heart, for the next step.
+void burden(const PhysiologyModel& model, const PhysiologyState& state, CirculationInputs& body);
 
 /// Advances by `dt_s`, up to `circulation_step_s`. Deterministic; does not allocate after the first call with the same
 /// scratch. Returns the report of the last contrast step.

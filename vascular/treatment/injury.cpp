@@ -11,7 +11,7 @@ namespace ostium::vascular {
 namespace {
 
 constexpr std::uint64_t tear = 41, tear_grade = 42, hole = 43, hole_grade = 44, wire = 45, hole_size = 46,
-                        balloon_seals = 47, flap = 48;
+                        balloon_seals = 47, flap = 48, jet_tears = 49;
 constexpr double burst_tears = 0.5, burst_holes = 0.05;
 
 bool exceeds(double hazard, std::uint64_t seed, std::uint64_t stream, int draws) {
@@ -25,6 +25,11 @@ constexpr double seals_alone = 0.545, sealed_so_far = 0.7;  // share of holes; o
 constexpr double clots_s = 1800, clots_covered_s = 240, of_hole_m = 0.5e-3;
 constexpr double act_normal_s = 130, act_none_s = 250;  // no clotting from here on
 constexpr double flap_grows_s = 900;                    // [estimate: closure comes a median of 27 minutes later]
+
+constexpr double forceful_m3_s = 3e-6, jet_H_m3 = 0.012e6;  // per m3
+constexpr double runs_m_m3 = 3e-3 * 1e6, takes_1_m3 = 0.06e6, open_guide = 0.25, runs_at_most_m = 0.1,
+                 takes_at_most = 0.95;
+constexpr double spiral_m = 10e-3;  // from here on it is called D
 
 /// Effective diameter, m.
 double drawn_hole_m(const InjuryModel& model, int grade, int draw) {
@@ -122,6 +127,26 @@ void judge_wire(const InjuryModel& model, int cell, double radius_m, double tip_
     add(model, s, InjuryKind::perforation, cell, radius_m < 0.75e-3 ? 5 : 1, time_s);
     s.wire_draws = 1;
   }
+}
+
+void judge_jet(const InjuryModel& model, const GuideJet& jet, double dt_s, double time_s, InjuryState& s) {
+  if (jet.cell < 0 || jet.m3_s < forceful_m3_s || jet.against_wall <= 0) return;
+  s.jet_H += jet_H_m3 * jet.against_wall * jet.m3_s * dt_s;
+  if (s.jet_draws < 1 && exceeds(s.jet_H, model.seed, jet_tears, 0)) {
+    add(model, s, InjuryKind::dissection, jet.cell, 2, time_s);
+    s.jet_draws = 1;
+  }
+}
+
+void run_on(const GuideJet& jet, bool downstream, double dt_s, Injury& injury) {
+  if (injury.kind != InjuryKind::dissection || !downstream || jet.m3_s < forceful_m3_s) return;
+  const double m3 = jet.m3_s * dt_s * std::max(open_guide, jet.against_wall);
+  injury.runs_m = std::min(runs_at_most_m, injury.runs_m + runs_m_m3 * m3);
+  if (injury.will_narrow < takes_at_most)
+    injury.will_narrow = std::min(takes_at_most, injury.will_narrow + takes_1_m3 * m3);
+  injury.narrows = std::min(injury.will_narrow, injury.narrows + takes_1_m3 * m3);
+  if (injury.grade < 3 && injury.runs_m > spiral_m) injury.grade = 3;
+  if (injury.narrows > 0.9) injury.grade = 5;
 }
 
 void injure(const InjuryModel& model, InjuryKind kind, int cell, int grade, double size_m, double time_s,

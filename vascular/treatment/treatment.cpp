@@ -15,6 +15,7 @@ constexpr double muscle_opens_s = 20;            // under the full effect of a d
 constexpr double tight_m = 20e-6;                // a balloon with less play lies on the wall
 constexpr double closed_m = 1e-6;                // radius of a branch that is shut
 constexpr double flap_m = 5e-3;                  // half of a flap's length [estimate]
+constexpr double fills_from = 0.85;              // of an artery's radius, from which a guide fills it [estimate]
 constexpr double fills_s = 0.4, empties_s = 15;  // filling and emptying of a pocket beside the lumen
 
 void run_injuries(const TreatmentModel& model, const FlowTree& tree, double dt, TreatmentState& s,
@@ -75,21 +76,59 @@ bool is_stented(const TreatmentModel& model, const TreatmentState& s, int cell) 
   return false;
 }
 
+/// The longest path through a cell.
+const VesselPath& path_through(const TreatmentModel& model, int cell) {
+  const VesselPath* longest = &model.paths.front();
+  double most_m = -1;
+  for (const VesselPath& path : model.paths)
+    if (path.length_m() > most_m && std::find(path.cells.begin(), path.cells.end(), cell) != path.cells.end())
+      longest = &path, most_m = path.length_m();
+  return *longest;
+}
+
 /// A flap narrows its artery over its length, where no stent holds it; a balloon pushes it aside.
-void narrow_by_flaps(const TreatmentModel& model, const FlowTree& tree, const std::vector<double>& occupied_m,
-                     TreatmentState& s) {
+void narrow_by_flaps(const TreatmentModel& model, const std::vector<double>& occupied_m, TreatmentState& s) {
   for (const Injury& injury : s.injury.injuries) {
     if (injury.cell < 0 || injury.kind != InjuryKind::dissection || injury.narrows < 1e-3) continue;
-    const FlowCell& torn = tree.cells[static_cast<std::size_t>(injury.cell)];
-    const FlowBranch& branch = tree.branches[static_cast<std::size_t>(torn.branch)];
-    for (int c = branch.first; c < branch.last; ++c) {
-      const auto cell = static_cast<std::size_t>(c);
-      if (std::fabs(tree.cells[cell].s_m - torn.s_m) > flap_m || is_stented(model, s, c)) continue;
+    const VesselPath& path = path_through(model, injury.cell);
+    const auto torn = std::find(path.cells.begin(), path.cells.end(), injury.cell);
+    const double torn_m = path.s_m[static_cast<std::size_t>(torn - path.cells.begin())];
+    for (std::size_t k = 0; k < path.cells.size(); ++k) {
+      const auto cell = static_cast<std::size_t>(path.cells[k]);
+      const double beyond_m = path.s_m[k] - torn_m;
+      if (beyond_m < -flap_m || beyond_m > flap_m + injury.runs_m || is_stented(model, s, path.cells[k])) continue;
       const double balloon = occupied_m.empty() ? 0 : occupied_m[cell];
       s.wall.radius_m[cell] =
           std::max(s.wall.radius_m[cell] * std::sqrt(1 - injury.narrows), std::min(balloon, s.wall.radius_m[cell]));
     }
   }
+}
+
+/// The jet out of the guide, with the lumen as the last step left it.
+GuideJet jet_of(const TreatmentInputs& in, const FlowTree& tree, const std::vector<double>& occupied_m,
+                const PhysiologyState& physiology) {
+  GuideJet jet{.m3_s = in.injected_m3_s, .against_wall = std::clamp(in.tip_covered, 0.0, 1.0)};
+  if (in.tip.where == TipPlace::coronary) {
+    jet.cell = in.tip.cell;
+    const auto cell = static_cast<std::size_t>(jet.cell);
+    const double filled = occupied_m.empty() ? 0 : occupied_m[cell] / std::max(physiology.radius_m[cell], 1e-6);
+    jet.against_wall = std::max(jet.against_wall, std::clamp((filled - fills_from) / (1 - fills_from), 0.0, 1.0));
+  }
+  const bool right = in.tip.where == TipPlace::right_sinus;
+  if ((right || in.tip.where == TipPlace::left_sinus) && in.tip.into_ostium > 0.5)
+    for (const FlowBranch& branch : tree.branches)
+      if (branch.parent < 0 && (branch.territory == Territory::rca) == right) jet.cell = branch.first;
+  return jet;
+}
+
+/// A jet against the wall tears it, and makes what is torn run on.
+void inject(const TreatmentModel& model, const GuideJet& jet, const FlowTree& tree, double dt, double time_s,
+            TreatmentState& s) {
+  if (jet.cell < 0 || jet.m3_s <= 0) return;
+  judge_jet(model.injury, jet, dt, time_s, s.injury);
+  for (Injury& injury : s.injury.injuries)
+    if (injury.cell >= 0 && !is_stented(model, s, injury.cell))
+      run_on(jet, tree.is_downstream(injury.cell, jet.cell), dt, injury);
 }
 
 /// What lies over each hole, as the last step left the lumen.
@@ -317,9 +356,12 @@ TreatmentReport step(const TreatmentModel& model, const TreatmentInputs& in, dou
   if (in.wire_tip_cell >= 0)
     judge_wire(model.injury, in.wire_tip_cell, s.wall.radius_m[in.wire_tip_cell], in.wire_tip_N, dt,
                vessels.physiology.heart.time_s, s.injury);
+  if (in.injected_m3_s > 0)
+    inject(model, jet_of(in, vessels.flow.tree, vessels.occupied_m, vessels.physiology), vessels.flow.tree, dt,
+           vessels.physiology.heart.time_s, s);
   report.tore = s.injury.count > injured;
   fill_lumen(model, in, report.blocked, s, vessels);
-  if (s.injury.count > 0) narrow_by_flaps(model, vessels.flow.tree, vessels.occupied_m, s);
+  if (s.injury.count > 0) narrow_by_flaps(model, vessels.occupied_m, s);
   set_radii(model, vessels.flow.tree, s, vessels.physiology);
   close_branches(model, vessels.flow.tree, s, vessels.physiology);
   clot(model, in, dt, s, vessels);

@@ -47,9 +47,10 @@ struct TreatmentInputs {
   std::span<const double> shaft_m = {};  ///< (#cells) radius of other instruments in the lumen; empty: none
   Doses doses = {};
   Provocation provocation = {};
-  double shock_J = 0;     ///< a defibrillator's, in this step
-  TipPlace tip = {};      ///< of the guide
-  double drawn_m3_s = 0;  ///< through it
+  double shock_J = 0;                         ///< a defibrillator's, in this step
+  TipPlace tip = {};                          ///< of the guide
+  double tip_covered = 0, injected_m3_s = 0;  ///< TipPressureInputs; through its tip
+  double drawn_m3_s = 0;                      ///< through it
 };
 
 struct TreatmentState {

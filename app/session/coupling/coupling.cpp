@@ -159,6 +159,7 @@ vascular::TreatmentInputs treatment_inputs(const CouplingModel& model, const Del
   out.provocation = {static_cast<vascular::Provoked>(kind), inputs.provoked_cell, inputs.provoked_size};
   out.shock_J = inputs.shock_J;
   out.tip = s.tip, out.drawn_m3_s = drawn_m3_s(model, inputs, s);
+  out.tip_covered = s.covered, out.injected_m3_s = s.guide < 0 ? 0 : inputs.injection_m3_s;
   return out;
 }
 

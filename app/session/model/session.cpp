@@ -216,7 +216,7 @@ vascular::HeartInputs heart_inputs(const SessionModel& model, const SessionInput
   if (!model.has_patient()) return heart;
   heart.body.breath = breath;
   act(model.treatment.drugs, state.treatment.drugs, heart.body);
-  weaken(state.blood.ischaemia, heart.body);
+  burden(model.physiology, state.blood, heart.body);
   heart.body.leak_m3_s = leak_m3_s(state.treatment), heart.body.reflexes = true;
   heart.body.drawn_m3_s = drawn_m3_s(coupling_of(model), inputs.delivery, state.coupling);
   heart.compressions_1_min = inputs.delivery.compressions_1_min;
