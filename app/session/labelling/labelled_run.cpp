@@ -72,7 +72,7 @@ Json frames_of_run(const RunSetup& setup, std::shared_ptr<const Vessel> vessel, 
   Json files = Json::array();
   if (options.dicom) files = dicom.write(folder, run_name);
   Json out = {{"outcome", reason.empty() ? words_for(run.outcome) : "aborted"},
-              {"reason", reason.empty() ? app::reason(run.plan, run.hands) : reason},
+              {"reason", reason.empty() ? app::reason(run) : reason},
               {"simulated_s", seconds(run.model, run.state)},
               {"pictures", pictures}};
   if (options.dicom) out["dicom"] = files;
