@@ -25,6 +25,7 @@
 #include "vascular/geometry/centreline/reach.h"
 #include "vascular/geometry/mesh/patient_frame.h"
 #include "vascular/geometry/mesh/surface_check.h"
+#include "vascular/geometry/mesh_files/open_end.h"
 #include "vascular/geometry/mesh_files/rounding.h"
 #include "vascular/geometry/mesh_files/written_mesh.h"
 #include "vascular/geometry/repair/repair.h"
@@ -289,6 +290,9 @@ class Import {
           fmt::format("the file's numbers are {:.2g} mm apart and hide what is finer: save it with more digits, or "
                       "moved to its origin",
                       rounding_m_ / mm));
+    for (const std::string& file : options_.files)
+      if (const std::string doubt = vascular::doubt_of_mesh_end(file); !doubt.empty())
+        made_.found.notes.push_back(doubt);
   }
 
   void make_case() {
