@@ -15,6 +15,7 @@
 #include "vascular/anatomy/lumen/lumen_parts.h"
 #include "vascular/geometry/centreline/reach.h"
 #include "vascular/geometry/mesh/surface_check.h"
+#include "vascular/geometry/mesh_files/open_end.h"
 #include "vascular/geometry/repair/double_wall.h"
 #include "vascular/geometry/repair/repair.h"
 #include "vascular/geometry/repair/sheets.h"
@@ -69,6 +70,8 @@ int run(const Arguments& a) {
   const bool in_json = data::writes_tree_as_json(a.output);
   const MeshUnit found_unit = unit_of({a.mesh}, read_vessel(a.mesh, vascular::LengthUnit::metre, 0).mesh, a.unit);
   if (!found_unit.known()) fmt::print(stderr, "{}: units: {}\n", a.mesh, describe(found_unit));
+  if (const std::string doubt = vascular::doubt_of_mesh_end(a.mesh); !doubt.empty())
+    fmt::print(stderr, "ostium centreline: {}\n", doubt);
   const vascular::LengthUnit unit = found_unit.unit;
   vascular::CentrelineOptions wanted;
   if (!a.start.empty()) mesh_point(a.start);

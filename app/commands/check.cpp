@@ -13,6 +13,7 @@
 #include "vascular/geometry/mesh/mesh.h"
 #include "vascular/geometry/mesh/patient_frame.h"
 #include "vascular/geometry/mesh/surface_check.h"
+#include "vascular/geometry/mesh_files/open_end.h"
 #include "vascular/geometry/mesh_files/rounding.h"
 #include "vascular/geometry/remesh/smooth.h"
 #include "vascular/geometry/repair/calibre.h"
@@ -68,6 +69,8 @@ void read(const Arguments& a, Checked& c) {
   c.unit = unit_of({c.file}, raw, a.unit);
   c.rounding_m = metres(c.unit.unit) * rounding_step(raw);
   c.mesh = read_vessel(c.file, c.unit.unit, c.unit.known() ? vascular::default_weld_m : 0);
+  if (const std::string doubt = vascular::doubt_of_mesh_end(c.file); !doubt.empty())
+    fmt::print(stderr, "ostium check: {}\n", doubt);
 }
 
 void find_openings(const vascular::Mesh& turned, const vascular::Sheets& sheets, Checked& c) {

@@ -43,7 +43,10 @@ void explain_curves(const data::JsonValue& file, const data::curves::CurveOption
 }
 
 void predict_curves(const data::JsonValue& file, const std::string& to, bool json) {
-  const auto set = data::curves::read_set(data::curves::with_tables(file));
+  const data::JsonValue root = data::curves::with_tables(file);
+  const auto set = data::curves::read_set(root);
+  for (const std::string& doubt : data::curves::doubts_of_tables(root))
+    fmt::print(stderr, "ostium predict: {}\n", doubt);
   const std::string text = prediction_json(*set);
   const std::filesystem::path folder(to);
   data::write_file((folder / "prediction.json").string(), text);

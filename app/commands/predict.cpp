@@ -10,6 +10,7 @@
 #include "app/commands/explain_curves.h"
 #include "data/catalogue/catalogue.h"
 #include "data/catalogue/instrument/instrument_reader.h"
+#include "data/formats/csv_table.h"
 #include "data/formats/write_file.h"
 #include "data/identification/characterisation/characterisation_report.h"
 #include "data/identification/curves/kinds.h"
@@ -60,6 +61,8 @@ void print_table(const std::vector<data::Prediction>& predictions) {
 }
 
 void predict_shapes(const Arguments& a, const data::MeasurementSet& set) {
+  if (const std::string doubt = set.table.empty() ? "" : data::doubt_of_end(set.table); !doubt.empty())
+    fmt::print(stderr, "ostium predict: {}\n", doubt);
   const auto predictions = predict(set, [&](std::size_t done, std::size_t of) {
     show_progress(done < of ? fmt::format("experiment {} of {}", done, of) : "");
   });

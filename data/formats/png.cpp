@@ -2,6 +2,8 @@
 
 #include <png.h>
 
+#include <fstream>
+#include <string_view>
 #include <vector>
 
 #include "data/formats/load_error.h"
@@ -44,6 +46,16 @@ void write_rgb_png(const std::string& file, int width, int height, const std::ve
 
 void write_grey16_png(const std::string& file, int width, int height, const std::vector<std::uint16_t>& grey) {
   write_bytes(file, compressed(width, height, PNG_FORMAT_LINEAR_Y, grey.data()));
+}
+
+bool is_whole_png(const std::string& file) {
+  using namespace std::string_view_literals;
+  constexpr std::string_view begins = "\x89PNG\r\n\x1a\n"sv, ends = "\0\0\0\0IEND\xae\x42\x60\x82"sv;
+  char first[begins.size()], last[ends.size()];
+  std::ifstream in(file, std::ios::binary);
+  return in.read(first, sizeof first) && in.seekg(-static_cast<std::streamoff>(sizeof last), std::ios::end) &&
+         in.read(last, sizeof last) && std::string_view(first, sizeof first) == begins &&
+         std::string_view(last, sizeof last) == ends;
 }
 
 std::vector<std::uint8_t> rgb_png_of(int width, int height, const std::vector<std::uint8_t>& rgb) {

@@ -28,6 +28,15 @@ rm -r two/before
 ls two/images/1-* | head -1 | xargs rm
 expect 0 "two: 8 pictures" dataset -o two
 diff -r one two
+# Nor is one that was cut short, as by a machine that lost its power.
+for kind in images masks depth; do
+  cut=$(ls two/$kind/2-* | head -1)
+  truncate -s $([[ $kind == masks ]] && echo -20 || echo 0) "$cut"
+  expect 0 "$cut: is gone, or was cut short; its run is made again" dataset -o two
+done
+diff -r one two
+expect 3 "--seconds 2 is over before the first picture is due, at 3 s" "$ostium" dataset rca-mid-focal \
+  --script rca-from-the-ostium --set begin=RCA --seconds 2 --every 3 -o none
 expect 3 "another set of pictures" dataset -o two --set hand_speed=2
 # One program at a time makes a run; others may make the others. The lock ends with the program, however that ends.
 "$ostium" dataset rca-mid-focal --script rca-from-the-ostium --set begin=RCA --seconds 2 --pixels 128 --every 0.8 \
@@ -55,6 +64,9 @@ if command -v dcmdump >/dev/null; then
   uid=$(dcmdump +P 0008,0018 "$film" | grep -o '\[.*\]')
   expect 0 "0008,1155.*${uid//[\[\]]/}" dcmdump "$segmentation"
 fi
+truncate -s -20 "$segmentation"
+expect 0 "$segmentation: is gone, or was cut short" "$ostium" dataset rca-mid-focal --script rca-from-the-ostium \
+  --set begin=RCA --seconds 1.5 --pixels 128 --every 0.6 --seeds 1 --dicom -o films
 if command -v dciodvfy >/dev/null; then
   dciodvfy "$film" 2>&1 | (! grep Error) && dciodvfy "$segmentation" 2>&1 | (! grep Error)
 fi

@@ -28,6 +28,9 @@ expect 0 "Examples" "$ostium" explain --help
 expect 0 "root mean square" "$ostium" predict "$folder/wire" -o "$folder/predicted"
 expect 0 "ostium-prediction/1" "$ostium" predict "$folder/wire/measurement.json" --json -o "$folder/predicted"
 grep -q "experiment,s_mm" "$folder/predicted/prediction.csv"
+cp -r "$(dirname "$0")/../../data/templates/push_pull" "$folder/cut"
+for table in "$folder"/cut/*.csv; do truncate -s -2 "$table"; done
+expect 0 "the last line has no end" "$ostium" predict "$folder/cut" -o "$folder/predicted-cut"
 expect 3 "no-such-set" "$ostium" predict "$folder/no-such-set"
 expect 1 "cannot be written" "$ostium" predict "$folder/wire" -o /proc/nowhere
 expect 2 "SET is required\|set is required" "$ostium" predict

@@ -2,8 +2,12 @@
 /// motion that made it.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <numeric>
+
 #include "core/base/units.h"
 #include "vascular/geometry/mesh/bounding_volume_hierarchy.h"
+#include "vascular/motion/frame_order.h"
 #include "vascular/patient/patient.h"
 
 namespace ostium::vascular {
@@ -41,6 +45,43 @@ TEST(Sequence, OurOwnBeatComesBackFromItsSurfaces) {
   EXPECT_LT(radius_off_m, 0.1e-3);
   EXPECT_LT(off_m, 0.3e-3) << "centres go up to 25 mm";
   EXPECT_LT(narrowest, 0.6) << "the lesion";
+}
+
+TEST(Sequence, FramesThatAreNoWholeBeatAreDoubted) {
+  constexpr int count = 24;
+  const auto doubts = [](const std::vector<int>& order, const std::vector<int>& numbers = {}) {
+    std::vector<Mesh> frames;
+    std::vector<std::string> files;
+    for (std::size_t i = 0; i < order.size(); ++i) {
+      frames.push_back(
+          {{10 * units::mm * (1 - std::cos(2 * units::pi * order[i] / count)) * Eigen::Vector3d::UnitX()}, {}});
+      files.push_back("f" + std::to_string(numbers.empty() ? order[i] : numbers[i]) + ".obj");
+    }
+    std::string all;
+    for (const std::string& doubt : doubts_of_frames(frames, files)) all += doubt + "\n";
+    return all;
+  };
+  std::vector<int> beat(count), late, half, gap, by_name;
+  std::iota(beat.begin(), beat.end(), 0);
+  for (int f = 0; f < count; ++f) {
+    late.push_back((f + 9) % count);
+    if (f < count / 2) half.push_back(f);
+    if (f != 7) gap.push_back(f);
+  }
+  by_name = beat;
+  std::sort(by_name.begin(), by_name.end(), [](int a, int b) { return std::to_string(a) < std::to_string(b); });
+  EXPECT_EQ(doubts(beat), "");
+  EXPECT_EQ(doubts(late), "") << "another moment first, as after the R wave";
+  EXPECT_EQ(doubts({0, 3, 6, 9, 12, 15, 18, 21}), "");
+  EXPECT_NE(doubts(by_name).find("jump about, as f10.obj follows f1.obj"), std::string::npos);
+  EXPECT_NE(doubts(gap).find("between f6.obj and f8.obj a frame is missing"), std::string::npos);
+  EXPECT_NE(doubts(half).find("from f11.obj to the first, f0.obj it moves by 19.7 mm"), std::string::npos)
+      << doubts(half);
+  beat.push_back(0);
+  std::vector<int> numbers(beat.size());
+  std::iota(numbers.begin(), numbers.end(), 0);
+  EXPECT_EQ(doubts(beat, numbers), "f24.obj and f0.obj are the same frame; expected each moment once\n");
+  EXPECT_NE(doubts({3, 3, 3, 3, 3}).find("nothing beats"), std::string::npos);
 }
 
 TEST(Sequence, OfAnotherNumberOfFramesIsResampled) {

@@ -101,7 +101,7 @@ void flow_on(const CirculationModel& m, const CirculationInputs& in, double acti
   s.lung_arteries_m3 += dt * (pulmonary - lungs);
   s.lung_veins_m3 += dt * (lungs - mitral);
   s.pericardium_m3 += leak - drain;
-  s.gained_m3 += infusion - drain - drawn;
+  s.infused_m3 += infusion, s.drained_m3 += drain, s.drawn_m3 += drawn;
   s.left_Pa = left - spent * std::max(0.0, s.aortic_m3_s), s.pericardium_Pa = peri, s.venous_Pa = veins;
 }
 
@@ -132,7 +132,7 @@ void settle_reflex(CirculationState& s) {
 
 double conserved_m3(const CirculationState& s) {
   return s.left_m3 + s.right_m3 + s.arteries_m3 + s.veins_m3 + s.lung_arteries_m3 + s.lung_veins_m3 + s.pericardium_m3 -
-         s.gained_m3 - s.venous_tone_m3;
+         s.infused_m3 + s.drained_m3 + s.drawn_m3 - s.venous_tone_m3;
 }
 
 }  // namespace ostium::vascular

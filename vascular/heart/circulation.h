@@ -111,8 +111,8 @@ struct CirculationState {
   double left_m3 = 1.29341e-4, right_m3 = 1.11292e-4;      ///< in the ventricles
   double arteries_m3 = 1.36217e-4, veins_m3 = 3.25821e-4;  ///< beyond what fills them without pressure
   double lung_arteries_m3 = 4.30464e-5, lung_veins_m3 = 1.01441e-4;
-  double pericardium_m3 = 0;  ///< fluid in it
-  double gained_m3 = 0;       ///< into the body less out of it, since the beginning
+  double pericardium_m3 = 0;                            ///< fluid in it
+  double infused_m3 = 0, drained_m3 = 0, drawn_m3 = 0;  ///< so far, as the inputs of these names say
   double venous_tone_m3 = 0;  ///< unstressed volume that reflex and drugs have mobilised into `veins_m3`
   double aortic_m3_s = 0;     ///< through the aortic valve; negative while it shuts
   double back_m3 = 0;         ///< has flowed back in this beat
@@ -138,7 +138,9 @@ constexpr auto fields(const CirculationState*) {
                     core::field("lung_arteries_m3", &S::lung_arteries_m3),
                     core::field("lung_veins_m3", &S::lung_veins_m3),
                     core::field("pericardium_m3", &S::pericardium_m3),
-                    core::field("gained_m3", &S::gained_m3),
+                    core::field("infused_m3", &S::infused_m3),
+                    core::field("drained_m3", &S::drained_m3),
+                    core::field("drawn_m3", &S::drawn_m3),
                     core::field("venous_tone_m3", &S::venous_tone_m3),
                     core::field("aortic_m3_s", &S::aortic_m3_s),
                     core::field("back_m3", &S::back_m3),

@@ -72,7 +72,7 @@ class Dataset {
       std::shared_ptr<const Vessel> vessel;
       for (std::size_t run = 0; run < part_of_.size() && !interrupted; ++run) {
         if (part_of_[run] != head_.part.number || sweep_.vessel_of[sweep_.grid.setting_of(run)] != v) continue;
-        if (is_done(run)) continue;
+        if (is_done(run, true)) continue;
         show_progress(fmt::format("{} of {}: {}", run + 1, part_of_.size(), sweep_.grid.name_of(run)));
         make(run, vessel);
       }
@@ -83,17 +83,30 @@ class Dataset {
   /// Runs of all parts that are not done.
   std::size_t missing() const {
     std::size_t count = 0;
-    for (std::size_t run = 0; run < part_of_.size(); ++run) count += is_done(run) ? 0 : 1;
+    for (std::size_t run = 0; run < part_of_.size(); ++run) count += is_done(run, false) ? 0 : 1;
     return count;
   }
 
-  /// Once all runs are done. Returns the number of pictures.
+  /// Once all runs are done. Returns the number of pictures; says why, if there is none.
   std::size_t finish() const {
     locks_->keep_others_from_finishing();
     std::vector<Json> runs;
-    for (std::size_t run = 0; run < part_of_.size(); ++run) runs.push_back(stored(run));
-    return write_label_set(arguments_.folder, {arguments_.frames.every_s, arguments_.frames.pixels, sweep_.grid.keys},
-                           runs);
+    double longest_s = 0;
+    for (std::size_t run = 0; run < part_of_.size(); ++run) {
+      runs.push_back(stored(run));
+      longest_s = std::max(longest_s, runs.back().value("simulated_s", 0.0));
+    }
+    const std::size_t pictures = write_label_set(
+        arguments_.folder, {arguments_.frames.every_s, arguments_.frames.pixels, sweep_.grid.keys}, runs);
+    if (pictures == 0)
+      fmt::print(stderr, "{}\n",
+                 longest_s == 0 ? "no run could be made"
+                 : longest_s < first_picture_s(arguments_.frames)
+                     ? fmt::format("all runs ended before the first picture, the longest after {:.3g} s; expected a "
+                                   "smaller --every",
+                                   longest_s)
+                     : "no tool was in the body when a picture was due");
+    return pictures;
   }
 
  private:
@@ -119,9 +132,11 @@ class Dataset {
         fmt::format("{}: is of another set of pictures, or damaged; remove it, or name another folder", run_file(run)));
   }
 
-  bool is_done(std::size_t run) const {
+  bool is_done(std::size_t run, bool says) const {
     if (!data::is_there(run_file(run))) return false;
-    return are_there(stored(run), arguments_.folder);
+    const std::string lost = lost_file(stored(run), arguments_.folder);
+    if (says && !lost.empty()) fmt::print(stderr, "{}: is gone, or was cut short; its run is made again\n", file(lost));
+    return lost.empty();
   }
 
   /// A run that throws is one without pictures, with its reason.
@@ -172,6 +187,11 @@ class Dataset {
 /// Exit code: 0 if every run of this part is done.
 int run(const Arguments& a) {
   if (a.frames.dicom) data::require_dicom();
+  if (const double s = a.runs.session.seconds; s > 0 && s <= first_picture_s(a.frames))
+    throw data::LoadError(
+        fmt::format("--seconds {:g} is over before the first picture is due, at {:.3g} s (--every); "
+                    "expected more seconds, or a smaller --every",
+                    s, first_picture_s(a.frames)));
   const SweepPart part = part_from(a.runs.part);
   Dataset dataset(a, plan_sweep(a.runs), part);
   for (const char* folder : {"images", "masks", "depth", "runs"}) make_folder(fs::path(a.folder) / folder);
@@ -184,7 +204,6 @@ int run(const Arguments& a) {
   }
   const std::size_t pictures = dataset.finish();
   fmt::print("{}: {} pictures\n", a.folder, pictures);
-  if (pictures == 0) fmt::print(stderr, "no tool was in the body when a picture was due, or no run could be made\n");
   return pictures == 0 ? 1 : 0;
 }
 

@@ -25,9 +25,11 @@
 #include "vascular/geometry/centreline/reach.h"
 #include "vascular/geometry/mesh/patient_frame.h"
 #include "vascular/geometry/mesh/surface_check.h"
+#include "vascular/geometry/mesh_files/open_end.h"
 #include "vascular/geometry/mesh_files/rounding.h"
 #include "vascular/geometry/mesh_files/written_mesh.h"
 #include "vascular/geometry/repair/repair.h"
+#include "vascular/motion/frame_order.h"
 #include "vascular/motion/heart_cycle.h"
 
 namespace ostium::app {
@@ -207,7 +209,8 @@ class Import {
   void read() {
     progress_("reading");
     vascular::Mesh raw;
-    for (const std::string& file : options_.files) {
+    files_ = options_.files;
+    for (const std::string& file : files_) {
       const vascular::MeshFile found = read_vessel(file, vascular::LengthUnit::metre, 0);
       made_.skipped += found.skipped_faces;
       append(raw, found.mesh);
@@ -247,6 +250,7 @@ class Import {
     const double scale = metres(find_unit(files_, made_.frames.front()));
     for (vascular::Mesh& frame : made_.frames)
       for (Eigen::Vector3d& p : frame.vertices) p *= scale;
+    doubts_of_frames_ = vascular::doubts_of_frames(made_.frames, files_);
     place_entry(made_.frames.front());
     if (volume_m3(made_.frames.front()) < 0)
       for (vascular::Mesh& frame : made_.frames)
@@ -289,6 +293,10 @@ class Import {
           fmt::format("the file's numbers are {:.2g} mm apart and hide what is finer: save it with more digits, or "
                       "moved to its origin",
                       rounding_m_ / mm));
+    for (const std::string& file : files_)
+      if (const std::string doubt = vascular::doubt_of_mesh_end(file); !doubt.empty())
+        made_.found.notes.push_back(doubt);
+    for (const std::string& doubt : doubts_of_frames_) made_.found.notes.push_back(doubt);
   }
 
   void make_case() {
@@ -349,8 +357,9 @@ class Import {
   TimedProgress progress_;
   vascular::LabellingOptions wanted_;
   vascular::Mesh mesh_;
-  std::vector<std::string> files_;  ///< of a sequence
-  double rounding_m_ = 0;           ///< between neighbouring numbers of the file
+  std::vector<std::string> files_;  ///< that were read
+  std::vector<std::string> doubts_of_frames_;
+  double rounding_m_ = 0;  ///< between neighbouring numbers of the file
   Imported made_;
 };
 

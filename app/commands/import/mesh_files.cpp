@@ -7,6 +7,7 @@
 #include <map>
 
 #include "vascular/geometry/mesh_files/formats.h"
+#include "vascular/motion/frame_order.h"
 
 namespace ostium::app {
 
@@ -16,11 +17,11 @@ std::vector<std::string> numbered_meshes(const std::string& folder) {
   std::map<std::pair<std::string, std::string>, std::map<long, std::string>> rows;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
     const std::string stem = entry.path().stem().string(), ending = entry.path().extension().string();
-    const auto digits = stem.find_last_not_of("0123456789") + 1;
-    if (!entry.is_regular_file() || digits == stem.size() || stem.size() - digits > 9) continue;
+    const long number = vascular::number_in_name(entry.path().string());
+    if (!entry.is_regular_file() || number < 0) continue;
     if (!vascular::has_mesh_ending(entry.path().string())) continue;
-    auto& row = rows[{stem.substr(0, digits), ending}];
-    const auto [twin, is_new] = row.try_emplace(std::stol(stem.substr(digits)), entry.path().string());
+    auto& row = rows[{stem.substr(0, stem.find_last_not_of("0123456789") + 1), ending}];
+    const auto [twin, is_new] = row.try_emplace(number, entry.path().string());
     if (!is_new)
       throw vascular::MeshError(fmt::format("{}: has the number of {}; expected a number for each frame, remove one",
                                             entry.path().string(), twin->second));

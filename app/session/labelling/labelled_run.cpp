@@ -9,7 +9,7 @@
 #include "app/session/labelling/dicom_film.h"
 #include "app/session/run/run.h"
 #include "app/session/scene/film.h"
-#include "data/formats/paths.h"
+#include "data/formats/dicom/dicom.h"
 #include "data/formats/png.h"
 
 namespace ostium::app {
@@ -27,7 +27,14 @@ bool any_in_body(const SessionReport& report) {
   return std::any_of(report.tools.begin(), report.tools.end(), [](const ToolReport& tool) { return tool.in_body; });
 }
 
+/// Frames from one that is kept to the next.
+long frames_apart(const FrameOptions& options) { return std::max(1L, std::lround(options.every_s * frames_per_s)); }
+
 }  // namespace
+
+double first_picture_s(const FrameOptions& options) {
+  return static_cast<double>(frames_apart(options)) / frames_per_s;
+}
 
 Json frames_of_run(const RunSetup& setup, std::shared_ptr<const Vessel> vessel, const std::string& run_name,
                    const std::string& folder, const FrameOptions& options) {
@@ -36,7 +43,7 @@ Json frames_of_run(const RunSetup& setup, std::shared_ptr<const Vessel> vessel, 
   FilmOptions film_options;
   film_options.pixels = options.pixels, film_options.overlay = false, film_options.seed = setup.seed + 1;
   Film film(run.model, film_options);
-  const long apart = std::max(1L, std::lround(options.every_s * frames_per_s));
+  const long apart = frames_apart(options);
   Json pictures = Json::array();
   DicomFilm dicom;
   std::string reason;
@@ -65,21 +72,22 @@ Json frames_of_run(const RunSetup& setup, std::shared_ptr<const Vessel> vessel, 
   Json files = Json::array();
   if (options.dicom) files = dicom.write(folder, run_name);
   Json out = {{"outcome", reason.empty() ? words_for(run.outcome) : "aborted"},
-              {"reason", reason.empty() ? app::reason(run.plan, run.hands) : reason},
+              {"reason", reason.empty() ? app::reason(run) : reason},
               {"simulated_s", seconds(run.model, run.state)},
               {"pictures", pictures}};
   if (options.dicom) out["dicom"] = files;
   return out;
 }
 
-bool are_there(const Json& run, const std::string& folder) {
-  std::vector<std::string> files;
+std::string lost_file(const Json& run, const std::string& folder) {
+  const auto at = [&](const std::string& file) { return (fs::path(folder) / file).string(); };
   for (const Json& picture : run.at("pictures"))
-    for (const char* of : {"file_name", "mask", "depth"}) files.push_back(picture.at("image").at(of));
+    for (const char* of : {"file_name", "mask", "depth"})
+      if (const std::string file = picture.at("image").at(of); !data::is_whole_png(at(file))) return file;
   for (const Json& film : run.value("dicom", Json::array()))
-    for (const auto& [of, file] : film.items()) files.push_back(file);
-  return std::all_of(files.begin(), files.end(),
-                     [&](const std::string& file) { return data::is_there((fs::path(folder) / file).string()); });
+    for (const auto& [of, file] : film.items())
+      if (!data::is_whole_dicom(at(file))) return file;
+  return "";
 }
 
 }  // namespace ostium::app

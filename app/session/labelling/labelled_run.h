@@ -15,12 +15,15 @@ struct FrameOptions {
   std::function<bool()> stop = [] { return false; };
 };
 
+/// When the first picture is due, simulated time.
+double first_picture_s(const FrameOptions& options);
+
 /// Plays a script and writes its pictures, masks and depths below `folder`. Returns what `coco_of` takes; empty if it
 /// was stopped. Throws LoadError, WriteError.
 nlohmann::ordered_json frames_of_run(const RunSetup& setup, std::shared_ptr<const Vessel> vessel,
                                      const std::string& run_name, const std::string& folder,
                                      const FrameOptions& options);
-/// Whether all files that a run of `frames_of_run` wrote are still there.
-bool are_there(const nlohmann::ordered_json& run, const std::string& folder);
+/// Of the files that a run of `frames_of_run` wrote, the first that is gone or was cut short; "": none.
+std::string lost_file(const nlohmann::ordered_json& run, const std::string& folder);
 
 }  // namespace ostium::app

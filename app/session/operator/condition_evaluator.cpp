@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "app/session/coupling/tool_geometry.h"
 #include "app/session/model/outcome.h"
@@ -14,143 +15,183 @@ namespace {
 
 using Evaluator = ConditionEvaluator;
 using Condition = data::ScriptCondition;
-/// Tests a condition at its place.
-using Test = bool (*)(const Evaluator&, const Condition&, int place);
-struct TestOfKind {
-  data::ConditionKind kind;
-  Test holds;
-};
+using Kind = data::ConditionKind;
 
 std::size_t index(int tool) { return static_cast<std::size_t>(tool); }
 
 bool is_beyond(const Evaluator& e, const Condition& c, int place) { return e.tip_is_beyond(c.tool, place); }
 
-/// One per kind, in any order.
+/// Tests a condition at its place.
+using Test = bool (*)(const Evaluator&, const Condition&, int place);
+struct TestOfKind {
+  Kind kind;
+  Test holds;
+};
+
+/// One per kind that is not settled by a number of `measures`, in any order.
 constexpr TestOfKind tests[] = {
-    {data::ConditionKind::tip_passes, is_beyond},
-    {data::ConditionKind::tip_in, is_beyond},
-    {data::ConditionKind::tip_leaves,
+    {Kind::tip_passes, is_beyond},
+    {Kind::tip_in, is_beyond},
+    {Kind::tip_leaves,
      [](const Evaluator& e, const Condition& c, int place) { return !e.tip_is_beyond(c.tool, place); }},
-    {data::ConditionKind::tip_on,
-     [](const Evaluator& e, const Condition& c, int place) {
-       return e.tool(c.tool).in_body && place >= 0 && e.astray_m(c.tool, place) == 0;
-     }},
-    {data::ConditionKind::tip_astray,
+    {Kind::tip_on, [](const Evaluator& e, const Condition& c,
+                      int place) { return e.tool(c.tool).in_body && place >= 0 && e.astray_m(c.tool, place) == 0; }},
+    {Kind::tip_astray,
      [](const Evaluator& e, const Condition& c, int place) {
        return e.tool(c.tool).in_body && place >= 0 && e.astray_m(c.tool, place) >= c.value;
      }},
-    {data::ConditionKind::tip_points,
+    {Kind::tip_points,
      [](const Evaluator& e, const Condition& c, int) {
        return tip_direction(e.model, e.session, c.tool).dot(c.direction_P) >= std::cos(c.value);
      }},
-    {data::ConditionKind::tip_faces,
+    {Kind::tip_faces,
      [](const Evaluator& e, const Condition& c, int place) { return e.faces(c.tool, place, std::cos(c.value)); }},
-    {data::ConditionKind::tip_drops,
-     [](const Evaluator& e, const Condition& c, int) { return e.dropped_m(c.tool) >= c.value; }},
-    {data::ConditionKind::fed,
-     [](const Evaluator& e, const Condition& c, int) { return std::fabs(e.fed_m(c.tool)) >= c.value; }},
-    {data::ConditionKind::inserted,
-     [](const Evaluator& e, const Condition& c, int) {
-       const double inserted_m = e.session.rods.rods[index(c.tool)].inserted_m;
-       return e.comes_in(c.tool) ? inserted_m >= c.value : inserted_m <= c.value;
-     }},
-    {data::ConditionKind::out,
+    {Kind::inserted, [](const Evaluator& e, const Condition& c,
+                        int) { return e.comes_in(c.tool) ? e.measured(c) >= c.value : e.measured(c) <= c.value; }},
+    {Kind::out,
      [](const Evaluator& e, const Condition& c, int) { return !e.report.tools.empty() && !e.tool(c.tool).in_body; }},
-    {data::ConditionKind::turned,
-     [](const Evaluator& e, const Condition& c, int) { return std::fabs(e.turned_rad(c.tool)) >= c.value; }},
-    {data::ConditionKind::hub_within, [](const Evaluator& e, const Condition& c,
-                                   int) { return std::fabs(e.session.hands[index(c.tool)].turned_rad) <= c.value; }},
-    {data::ConditionKind::push_exceeds,
-     [](const Evaluator& e, const Condition& c, int) { return std::fabs(e.state.felt[4 * index(c.tool)]) > c.value; }},
-    {data::ConditionKind::torque_exceeds, [](const Evaluator& e, const Condition& c,
-                                       int) { return std::fabs(e.state.felt[4 * index(c.tool) + 1]) > c.value; }},
-    {data::ConditionKind::wall_force_exceeds,
-     [](const Evaluator& e, const Condition& c, int) { return e.state.felt[4 * index(c.tool) + 2] > c.value; }},
-    {data::ConditionKind::tip_force_exceeds,
-     [](const Evaluator& e, const Condition& c, int) { return e.state.felt[4 * index(c.tool) + 3] > c.value; }},
-    {data::ConditionKind::seconds,
-     [](const Evaluator& e, const Condition& c, int) { return e.now_s() - e.state.began_s >= c.value; }},
-    {data::ConditionKind::beats,
-     [](const Evaluator& e, const Condition& c, int) {
-       return e.session.blood.heart.beats + e.session.blood.heart.phase - e.state.began_beats >= c.value;
-     }},
-    {data::ConditionKind::balloon_at,
-     [](const Evaluator& e, const Condition& c, int) { return e.balloon_is_at(c.value, c.lesion); }},
-    {data::ConditionKind::balloon_within,
-     [](const Evaluator& e, const Condition& c, int) { return e.balloon_is_within(c.value, c.lesion); }},
-    {data::ConditionKind::balloon_clear,
-     [](const Evaluator& e, const Condition& c, int) { return e.balloon_is_out_of_guide(c.value); }},
-    {data::ConditionKind::balloon_open,
+    {Kind::balloon_at, [](const Evaluator& e, const Condition& c, int) { return e.balloon_is_at(c); }},
+    {Kind::balloon_within,
+     [](const Evaluator& e, const Condition& c, int) { return heart_rests(e.session) && e.measured(c) <= c.value; }},
+    {Kind::balloon_open,
      [](const Evaluator& e, const Condition&, int) {
        const vascular::BalloonState& balloon = e.session.treatment.balloon;
        return e.balloon() && balloon.pressure_Pa > 101325 && waist(*e.balloon(), balloon) > 0.9;
      }},
-    {data::ConditionKind::balloon_empty,
-     [](const Evaluator& e, const Condition&, int) {
-       return !e.balloon() || is_empty(*e.balloon(), e.session.treatment.balloon);
+    {Kind::balloon_empty, [](const Evaluator& e, const Condition&,
+                             int) { return !e.balloon() || is_empty(*e.balloon(), e.session.treatment.balloon); }},
+    {Kind::engaged, [](const Evaluator& e, const Condition&, int place) { return e.guide_is_in(place); }},
+    {Kind::trace,
+     [](const Evaluator& e, const Condition&, int place) {
+       return e.session.coupling.guide >= 0 && static_cast<int>(e.session.blood.line.trace) == place;
      }},
-    {data::ConditionKind::engaged, [](const Evaluator& e, const Condition&, int place) { return e.guide_is_in(place); }},
-    {data::ConditionKind::trace,
-     [](const Evaluator& e, const Condition&,
-        int place) { return e.session.coupling.guide >= 0 && static_cast<int>(e.session.blood.line.trace) == place; }},
-    {data::ConditionKind::contrast_in,
-     [](const Evaluator& e, const Condition&, int place) { return e.contrast_is_seen(place); }},
-    {data::ConditionKind::flow_below, [](const Evaluator& e, const Condition& c,
-                                   int) { return supply_behind_lesion(e.model, e.session, c.lesion) < c.value; }},
-    {data::ConditionKind::ST_exceeds,
-     [](const Evaluator& e, const Condition& c,
-        int) { return ST_shift_mV(e.model.physiology.ischaemia, e.session.blood.ischaemia) > 1e3 * c.value; }},
-    {data::ConditionKind::act_exceeds,
-     [](const Evaluator& e, const Condition& c,
-        int) { return act_s(e.model.treatment.drugs, e.session.treatment.drugs) > c.value; }},
-    {data::ConditionKind::stenosis_below, [](const Evaluator& e, const Condition& c,
-                                       int) { return lesion_now(e.model, e.session, c.lesion).stenosis < c.value; }},
-    {data::ConditionKind::stent_beyond, [](const Evaluator& e, const Condition& c,
-                                     int) { return lesion_is_covered(e.model, e.session, c.value, c.lesion); }},
-    {data::ConditionKind::unharmed,
-     [](const Evaluator& e, const Condition&, int) { return is_unharmed(e.model, e.session); }},
-    {data::ConditionKind::systolic_below,
-     [](const Evaluator& e, const Condition& c, int) { return e.session.blood.heart.beat.systolic_Pa < c.value; }},
-    {data::ConditionKind::systolic_exceeds,
-     [](const Evaluator& e, const Condition& c, int) { return e.session.blood.heart.beat.systolic_Pa > c.value; }},
-    {data::ConditionKind::rate_below, [](const Evaluator& e, const Condition& c,
-                                   int) { return 60 / e.session.blood.heart.cycle_s < c.value; }},
-    {data::ConditionKind::rate_exceeds, [](const Evaluator& e, const Condition& c,
-                                     int) { return 60 / e.session.blood.heart.cycle_s > c.value; }},
-    {data::ConditionKind::pericardium_below,
-     [](const Evaluator& e, const Condition& c,
-        int) { return e.session.blood.heart.circulation.pericardium_m3 < c.value; }},
-    {data::ConditionKind::pericardium_exceeds,
-     [](const Evaluator& e, const Condition& c,
-        int) { return e.session.blood.heart.circulation.pericardium_m3 > c.value; }},
-    {data::ConditionKind::thrombus_below,
-     [](const Evaluator& e, const Condition& c, int) { return volume_m3(e.session.treatment.thrombus) < c.value; }},
-    {data::ConditionKind::thrombus_exceeds,
-     [](const Evaluator& e, const Condition& c, int) { return volume_m3(e.session.treatment.thrombus) > c.value; }},
-    {data::ConditionKind::sealed, [](const Evaluator& e, const Condition&,
-                               int) { return leak_m3_s(e.session.treatment) < visible_leak_m3_s; }},
-    {data::ConditionKind::pulseless,
-     [](const Evaluator& e, const Condition&, int) { return e.session.blood.heart.pulseless_s > 0; }},
-    {data::ConditionKind::stopped, [](const Evaluator& e, const Condition&, int) {
+    {Kind::contrast_in, [](const Evaluator& e, const Condition&, int place) { return e.contrast_is_seen(place); }},
+    {Kind::stent_beyond, [](const Evaluator& e, const Condition& c,
+                            int) { return lesion_is_covered(e.model, e.session, c.value, c.lesion); }},
+    {Kind::unharmed, [](const Evaluator& e, const Condition&, int) { return is_unharmed(e.model, e.session); }},
+    {Kind::sealed,
+     [](const Evaluator& e, const Condition&, int) { return leak_m3_s(e.session.treatment) < visible_leak_m3_s; }},
+    {Kind::pulseless, [](const Evaluator& e, const Condition&, int) { return e.session.blood.heart.pulseless_s > 0; }},
+    {Kind::stopped, [](const Evaluator& e, const Condition&, int) {
        return e.session.blood.heart.rhythm == vascular::Rhythm::asystole;
      }}};
 
-/// Indexed by kind. Does not compile if a kind has no test, or two.
-constexpr std::array<Test, data::condition_kinds> test_of = [] {
-  static_assert(std::size(tests) == data::condition_kinds, "each kind of condition has one test");
-  std::array<Test, data::condition_kinds> by_kind{};
-  for (const TestOfKind& one : tests) {
-    Test& place = by_kind[static_cast<std::size_t>(one.kind)];
-    if (place) throw "two tests of one kind";
-    place = one.holds;
+/// How a number settles a condition; `by_test`: its row of `tests` does, which looks at more.
+enum class Settled { by_test, above, at_least, below, at_most };
+/// In SI, as the condition's value; NaN: there is none to see.
+using Measure = double (*)(const Evaluator&, const Condition&);
+struct MeasureOfKind {
+  Kind kind;
+  Settled when;
+  Measure seen;
+};
+
+/// One per kind that is about a number, in any order.
+constexpr MeasureOfKind measures[] = {
+    {Kind::tip_drops, Settled::at_least, [](const Evaluator& e, const Condition& c) { return e.dropped_m(c.tool); }},
+    {Kind::fed, Settled::at_least, [](const Evaluator& e, const Condition& c) { return std::fabs(e.fed_m(c.tool)); }},
+    {Kind::inserted, Settled::by_test,
+     [](const Evaluator& e, const Condition& c) { return e.session.rods.rods[index(c.tool)].inserted_m; }},
+    {Kind::turned, Settled::at_least,
+     [](const Evaluator& e, const Condition& c) { return std::fabs(e.turned_rad(c.tool)); }},
+    {Kind::hub_within, Settled::at_most,
+     [](const Evaluator& e, const Condition& c) { return std::fabs(e.session.hands[index(c.tool)].turned_rad); }},
+    {Kind::push_exceeds, Settled::above,
+     [](const Evaluator& e, const Condition& c) { return std::fabs(e.state.felt[4 * index(c.tool)]); }},
+    {Kind::torque_exceeds, Settled::above,
+     [](const Evaluator& e, const Condition& c) { return std::fabs(e.state.felt[4 * index(c.tool) + 1]); }},
+    {Kind::wall_force_exceeds, Settled::above,
+     [](const Evaluator& e, const Condition& c) { return e.state.felt[4 * index(c.tool) + 2]; }},
+    {Kind::tip_force_exceeds, Settled::above,
+     [](const Evaluator& e, const Condition& c) { return e.state.felt[4 * index(c.tool) + 3]; }},
+    {Kind::seconds, Settled::at_least,
+     [](const Evaluator& e, const Condition&) { return e.now_s() - e.state.began_s; }},
+    {Kind::beats, Settled::at_least,
+     [](const Evaluator& e, const Condition&) {
+       return e.session.blood.heart.beats + e.session.blood.heart.phase - e.state.began_beats;
+     }},
+    {Kind::balloon_at, Settled::by_test,
+     [](const Evaluator& e, const Condition& c) { return e.balloon_from_lesion(c.lesion); }},
+    {Kind::balloon_within, Settled::by_test,
+     [](const Evaluator& e, const Condition& c) { return std::fabs(e.balloon_from_lesion(c.lesion)); }},
+    {Kind::balloon_clear, Settled::at_least,
+     [](const Evaluator& e, const Condition&) { return e.balloon_beyond_guide_m(); }},
+    {Kind::flow_below, Settled::below,
+     [](const Evaluator& e, const Condition& c) { return supply_behind_lesion(e.model, e.session, c.lesion); }},
+    {Kind::ST_exceeds, Settled::above,
+     [](const Evaluator& e, const Condition&) {
+       return 1e-3 * ST_shift_mV(e.model.physiology.ischaemia, e.session.blood.ischaemia);
+     }},
+    {Kind::act_exceeds, Settled::above,
+     [](const Evaluator& e, const Condition&) { return act_s(e.model.treatment.drugs, e.session.treatment.drugs); }},
+    {Kind::stenosis_below, Settled::below,
+     [](const Evaluator& e, const Condition& c) { return lesion_now(e.model, e.session, c.lesion).stenosis; }},
+    {Kind::systolic_below, Settled::below,
+     [](const Evaluator& e, const Condition&) { return e.session.blood.heart.beat.systolic_Pa; }},
+    {Kind::systolic_exceeds, Settled::above,
+     [](const Evaluator& e, const Condition&) { return e.session.blood.heart.beat.systolic_Pa; }},
+    {Kind::rate_below, Settled::below,
+     [](const Evaluator& e, const Condition&) { return 60 / e.session.blood.heart.cycle_s; }},
+    {Kind::rate_exceeds, Settled::above,
+     [](const Evaluator& e, const Condition&) { return 60 / e.session.blood.heart.cycle_s; }},
+    {Kind::pericardium_below, Settled::below,
+     [](const Evaluator& e, const Condition&) { return e.session.blood.heart.circulation.pericardium_m3; }},
+    {Kind::pericardium_exceeds, Settled::above,
+     [](const Evaluator& e, const Condition&) { return e.session.blood.heart.circulation.pericardium_m3; }},
+    {Kind::thrombus_below, Settled::below,
+     [](const Evaluator& e, const Condition&) { return volume_m3(e.session.treatment.thrombus); }},
+    {Kind::thrombus_exceeds, Settled::above,
+     [](const Evaluator& e, const Condition&) { return volume_m3(e.session.treatment.thrombus); }}};
+
+/// Of one kind: `test` or `measure.when` settles it.
+struct Settles {
+  Test test;
+  Settled when;
+  Measure seen;
+};
+
+/// Indexed by kind. Does not compile if nothing, or two, settle a kind. All zero at first: GCC 12 forgets other values
+/// of elements that are skipped.
+constexpr std::array<Settles, data::condition_kinds> settles_kind = [] {
+  std::array<Settles, data::condition_kinds> by_kind{};
+  for (const MeasureOfKind& one : measures) {
+    Settles& place = by_kind[static_cast<std::size_t>(one.kind)];
+    if (place.seen) throw "two measures of one kind";
+    place.when = one.when, place.seen = one.seen;
   }
+  for (const TestOfKind& one : tests) {
+    Settles& place = by_kind[static_cast<std::size_t>(one.kind)];
+    if (place.test || place.when != Settled::by_test) throw "two tests of one kind";
+    place.test = one.holds;
+  }
+  for (const Settles& place : by_kind)
+    if (!place.test && place.when == Settled::by_test) throw "a kind without a test";
   return by_kind;
 }();
+
+const Settles& settles(const Condition& condition) { return settles_kind[static_cast<std::size_t>(condition.kind)]; }
 
 }  // namespace
 
 bool ConditionEvaluator::holds(const data::ScriptCondition& condition, int place) const {
-  return test_of[static_cast<std::size_t>(condition.kind)](*this, condition, place);
+  switch (settles(condition).when) {
+    case Settled::above:
+      return measured(condition) > condition.value;
+    case Settled::at_least:
+      return measured(condition) >= condition.value;
+    case Settled::below:
+      return measured(condition) < condition.value;
+    case Settled::at_most:
+      return measured(condition) <= condition.value;
+    case Settled::by_test:
+      return settles(condition).test(*this, condition, place);
+  }
+  return false;
+}
+
+double ConditionEvaluator::measured(const data::ScriptCondition& condition) const {
+  const Measure seen = settles(condition).seen;
+  return seen ? seen(*this, condition) : std::numeric_limits<double>::quiet_NaN();
 }
 
 int ConditionEvaluator::first_that_holds(const std::vector<data::ScriptCondition>& conditions,
@@ -204,16 +245,8 @@ const vascular::BalloonModel* ConditionEvaluator::balloon() const {
   return b < 0 ? nullptr : &model.treatment.balloons[static_cast<std::size_t>(b)];
 }
 
-/// A beat moves artery and shaft relative to each other by millimetres, so positions are evaluated while the heart
-/// rests, before the R wave.
-std::optional<double> ConditionEvaluator::balloon_at_rest_m(int lesion) const {
-  if (!heart_rests(session)) return {};
-  return balloon_from_lesion_m(model, session, lesion);
-}
-
-bool ConditionEvaluator::balloon_is_within(double most_m, int lesion) const {
-  const auto at = balloon_at_rest_m(lesion);
-  return at && std::fabs(*at) <= most_m;
+double ConditionEvaluator::balloon_from_lesion(int lesion) const {
+  return balloon_from_lesion_m(model, session, lesion).value_or(std::numeric_limits<double>::quiet_NaN());
 }
 
 /// Whether the tool is being advanced. Decided by the step's action; only for steps about other tools by the movement
@@ -227,22 +260,23 @@ bool ConditionEvaluator::comes_in(int tool) const {
 }
 
 /// Whether the balloon has reached the offset from the side it comes from.
-bool ConditionEvaluator::balloon_is_at(double offset_m, int lesion) const {
-  const auto at = balloon_at_rest_m(lesion);
-  if (!at) return false;
+bool ConditionEvaluator::balloon_is_at(const data::ScriptCondition& c) const {
+  if (!heart_rests(session)) return false;
+  const double at_m = measured(c);
   for (std::size_t t = 0; t < model.tools.size(); ++t)
     if (model.balloon_of[t] == session.coupling.balloon)
-      return comes_in(static_cast<int>(t)) ? *at >= offset_m : *at <= offset_m;
+      return comes_in(static_cast<int>(t)) ? at_m >= c.value : at_m <= c.value;
   return false;
 }
 
-bool ConditionEvaluator::balloon_is_out_of_guide(double by_m) const {
+/// Of its proximal marker from the guide's tip; NaN: no balloon is in the body.
+double ConditionEvaluator::balloon_beyond_guide_m() const {
   const auto inserted_m = [&](std::size_t tool) { return session.rods.rods[tool].inserted_m; };
   const double guide_m = session.coupling.guide < 0 ? 0 : inserted_m(static_cast<std::size_t>(session.coupling.guide));
   for (std::size_t t = 0; t < model.tools.size(); ++t)
     if (session.coupling.balloon >= 0 && model.balloon_of[t] == session.coupling.balloon)
-      return inserted_m(t) - marker_from_tip_m(model.tools[t].instrument, 0) >= guide_m + by_m;
-  return false;
+      return inserted_m(t) - marker_from_tip_m(model.tools[t].instrument, 0) - guide_m;
+  return std::numeric_limits<double>::quiet_NaN();
 }
 
 bool ConditionEvaluator::guide_is_in(int branch) const {
@@ -256,11 +290,13 @@ bool ConditionEvaluator::guide_is_in(int branch) const {
          b.tip.into_ostium > 0.6;
 }
 
-/// Only while the beam is on.
-bool ConditionEvaluator::contrast_is_seen(int cell) const {
+double ConditionEvaluator::contrast_kg_m3(int cell) const {
   const double r = session.blood.radius_m[static_cast<std::size_t>(cell)];
-  const double there = concentration(session.blood.contrast, model.physiology.flow, cell, units::pi * r * r);
-  return there > visible_kg_m3 && (session.c_arm.fluoroscopy || session.c_arm.cine);
+  return concentration(session.blood.contrast, model.physiology.flow, cell, units::pi * r * r);
+}
+
+bool ConditionEvaluator::contrast_is_seen(int cell) const {
+  return beam_is_on() && contrast_kg_m3(cell) > visible_kg_m3;
 }
 
 /// How far the tip moved since the oldest note, beyond the hand's movement.

@@ -1,6 +1,5 @@
 #pragma once
 /// Evaluates the conditions of a script from what an operator can see of a session.
-#include <optional>
 #include <vector>
 
 #include "app/session/operator/operator.h"
@@ -21,6 +20,8 @@ class ConditionEvaluator {
 
   /// `place`: the condition's place as resolved in the plan.
   bool holds(const data::ScriptCondition& condition, int place) const;
+  /// The number that the condition is about, in SI; NaN if it is about none, or there is none to see.
+  double measured(const data::ScriptCondition& condition) const;
   /// Index of the first that holds, or -1; `at`: their places.
   int first_that_holds(const std::vector<data::ScriptCondition>& conditions, const std::vector<int>& at) const;
 
@@ -35,12 +36,13 @@ class ConditionEvaluator {
   double dropped_m(int tool) const;
   bool comes_in(int tool) const;
   const vascular::BalloonModel* balloon() const;  ///< the one in the body, or null
-  std::optional<double> balloon_at_rest_m(int lesion) const;
-  bool balloon_is_at(double offset_m, int lesion) const;
-  bool balloon_is_within(double most_m, int lesion) const;
-  bool balloon_is_out_of_guide(double by_m) const;
+  double balloon_from_lesion(int lesion) const;   ///< m; NaN: not in its artery
+  bool balloon_is_at(const data::ScriptCondition& condition) const;
+  double balloon_beyond_guide_m() const;
   bool guide_is_in(int branch) const;
+  double contrast_kg_m3(int cell) const;
   bool contrast_is_seen(int cell) const;
+  bool beam_is_on() const { return session.c_arm.fluoroscopy || session.c_arm.cine; }
 
  private:
   int tip_sphere(int tool) const;

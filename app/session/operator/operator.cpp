@@ -103,7 +103,8 @@ void require_tool(const data::Script& script, const data::ScriptStep& step, cons
     refuse_step(script, step, step.words() + ": no tool has a balloon; expected a balloon or a stent among the tools");
   if (step.action == Action::breathe && !(model.breaths_1_min > 0))
     refuse_step(script, step, step.words() + ": this patient does not breathe; expected --set breathing=12 or so");
-  if ((step.action == Action::inject || step.action == Action::aspirate) &&
+  const bool air = step.action == Action::provoke && step.complication == static_cast<int>(vascular::Provoked::air);
+  if ((needs_catheter(step.action) || air) &&
       none([](const SessionTool& tool) { return is_catheter(tool.instrument); }))
     refuse_step(script, step, step.words() + ": no tool is a catheter for it; expected one among the tools");
 }
@@ -228,6 +229,11 @@ int leads_to(const data::Script& script, int s, int& tries) {
 }  // namespace
 
 ScriptPlan make_plan(const data::Script& script, const SessionModel& model, std::uint64_t seed) {
+  for (const data::ScriptLandmark& landmark : script.landmarks)
+    if (model.vessel->way->place(landmark.name) >= 0)
+      throw data::LoadError(
+          fmt::format("{}:{}: there is a place \"{}\" in this vessel; expected another name for the landmark",
+                      script.file, landmark.line, landmark.name));
   ScriptPlan plan{
       .script = script, .until_places = {}, .unless_places = {}, .subjects = {}, .seed = seed, .hand_speed = 1};
   for (const data::ScriptStep& step : script.steps) {
@@ -312,55 +318,6 @@ Outcome decide(const ScriptPlan& plan, const SessionModel& model, const SessionS
     continue_action(plan.script.steps[static_cast<std::size_t>(state.step)], session, evaluator.now_s(), state);
   ask(plan, state, inputs);
   return state.outcome;
-}
-
-std::string words_for(Outcome outcome) {
-  switch (outcome) {
-    case Outcome::running:
-      return "running";
-    case Outcome::success:
-      return "success";
-    case Outcome::failure:
-    case Outcome::timed_out:
-      return "failure";
-    case Outcome::aborted:
-      return "aborted";
-    case Outcome::ended:
-      return "ended";
-  }
-  return "";
-}
-
-std::string reason(const ScriptPlan& plan, const OperatorState& state) {
-  const auto outcome = state.outcome;
-  const auto s = static_cast<std::size_t>(state.step);
-  if (outcome == Outcome::ended) return "by the operator";
-  if (outcome == Outcome::success || s >= plan.script.steps.size()) return "";
-  const data::ScriptStep& step = plan.script.steps[s];
-  const std::string where = fmt::format("step {} of {}, {}", s + 1, plan.script.steps.size(), step.words());
-  if (outcome == Outcome::timed_out) return fmt::format("{}: timed out after {:g} s", where, step.timeout_s);
-  if (state.in_the_way >= 0)
-    return fmt::format("{}: {} is still in the body, and nothing can enter beside it; withdraw it first", where,
-                       plan.script.tools[static_cast<std::size_t>(state.in_the_way)].name);
-  if (outcome == Outcome::failure)
-    return fmt::format("{}: {}", where, step.unless[static_cast<std::size_t>(state.by_condition)].words);
-  return outcome == Outcome::aborted ? "ended by the operator, in " + where : where;
-}
-
-std::string where_tips_lie(const SessionModel& model, const SessionState& session, const SessionReport& report) {
-  std::string words;
-  if (!model.has_patient()) return words;
-  const VesselIndex& way = *model.vessel->way;
-  for (std::size_t t = 0; t < report.tools.size(); ++t) {
-    if (!report.tools[t].in_body) continue;
-    const int at =
-        way.locate(tip(model, session, static_cast<int>(t)), session.blood.heart.phase, breath(model, session));
-    const std::string& branch = way.branches()[static_cast<std::size_t>(way.branch(at))].name;
-    const double into_m = way.from_access_m(at) - way.from_access_m(way.entry(branch));
-    words +=
-        fmt::format("{}{} {:.0f} mm into {}", words.empty() ? "" : ", ", model.tools[t].name, 1e3 * into_m, branch);
-  }
-  return words;
 }
 
 }  // namespace ostium::app

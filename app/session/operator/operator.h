@@ -39,11 +39,10 @@ struct OperatorState {
   bool fluoroscopy = false, cine = false;
   Eigen::Vector3d p_PI = Eigen::Vector3d::Zero();
   double iodine_kg_m3 = 350, injection_m3_s = 0;  ///< of the syringe
-  double began_injected_m3 = 0;
-  double gauge_Pa = 0, began_gauge_Pa = 0;  ///< of the inflation device
-  DeliveryInputs given;                     ///< to be given in the next step: doses, fluid, drain, what the heart needs
-  double began_gained_m3 = 0;               ///< by the circulation
-  int in_the_way = -1;                      ///< the tool that ended the script: another could not enter beside it
+  double gauge_Pa = 0, began_gauge_Pa = 0;        ///< of the inflation device
+  DeliveryInputs given;       ///< to be given in the next step: doses, fluid, drain, what the heart needs
+  double began_moved_m3 = 0;  ///< by the line or drain that the step uses, until it began
+  int in_the_way = -1;        ///< the tool that ended the script: another could not enter beside it
   Outcome outcome = Outcome::running;
   int by_condition = -1;  ///< index of the `unless` condition that held; -1: the timeout
 };
@@ -68,11 +67,10 @@ constexpr auto fields(const OperatorState*) {
                     core::field("isocentre_m", &S::p_PI),
                     core::field("iodine_kg_m3", &S::iodine_kg_m3),
                     core::field("injection_m3_s", &S::injection_m3_s),
-                    core::field("began_injected_m3", &S::began_injected_m3),
                     core::field("gauge_Pa", &S::gauge_Pa),
                     core::field("began_gauge_Pa", &S::began_gauge_Pa),
                     core::field("given", &S::given),
-                    core::field("began_gained_m3", &S::began_gained_m3),
+                    core::field("began_moved_m3", &S::began_moved_m3),
                     core::field("in_the_way", &S::in_the_way),
                     core::field("outcome", &S::outcome),
                     core::field("by_condition", &S::by_condition)};
@@ -98,8 +96,10 @@ Outcome decide(const ScriptPlan& plan, const SessionModel& model, const SessionS
                const SessionReport& report, OperatorState& state, SessionInputs& inputs,
                std::vector<OperatorEvent>& events);
 
-/// "advance (up the aorta): push_exceeds_N 8"; empty after success.
-std::string reason(const ScriptPlan& plan, const OperatorState& state);
+/// "advance (up the aorta): push_exceeds_N 8", "...: timed out after 5 s, waiting for fed_mm 30 (now 12.3)"; empty
+/// after success. The session as it was judged last.
+std::string reason(const ScriptPlan& plan, const SessionModel& model, const SessionState& session,
+                   const SessionReport& report, const OperatorState& state);
 
 /// "guide 3 mm into RCA, wire 25 mm into RV": tips in a patient's body; a step often fails because of where another
 /// tool lies.

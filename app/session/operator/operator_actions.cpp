@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 
+#include "core/base/units.h"
 #include "data/formats/load_error.h"
 
 namespace ostium::app {
@@ -20,6 +21,8 @@ struct Handling {
   void (*begin)(const Step&, const SessionState&, OperatorState&) = nullptr;
   void (*go_on)(const Step&, const SessionState&, double now_s, OperatorState&) = nullptr;
   bool (*is_over)(const Step&, const ConditionEvaluator&) = nullptr;  ///< for actions that end by themselves
+  /// For actions that end once `volume_m3` has passed: what has passed so far through the line or drain they use.
+  double (*moved_m3)(const SessionState&) = nullptr;
 };
 
 void move_c_arm(const Step& step, const SessionState&, OperatorState& state) {
@@ -27,17 +30,10 @@ void move_c_arm(const Step& step, const SessionState&, OperatorState& state) {
   state.field_m = step.field_m.value_or(state.field_m), state.p_PI = step.table_P.value_or(state.p_PI);
 }
 
-double injected_m3(const SessionState& session, const OperatorState& state) {
-  return session.blood.contrast.injected_m3 - state.began_injected_m3;
-}
-
-void fill_syringe(const Step& step, const SessionState& session, OperatorState& state) {
-  state.iodine_kg_m3 = step.iodine_kg_m3;
-  state.began_injected_m3 = session.blood.contrast.injected_m3;
-}
+double injected_m3(const SessionState& session) { return session.blood.contrast.injected_m3; }
 
 void press_syringe(const Step& step, const SessionState& session, double, OperatorState& state) {
-  if (injected_m3(session, state) < step.volume_m3) state.injection_m3_s = step.rate_m3_s;
+  if (injected_m3(session) - state.began_moved_m3 < step.volume_m3) state.injection_m3_s = step.rate_m3_s;
 }
 
 void screw_inflation_device(const Step& step, const SessionState&, double now_s, OperatorState& state) {
@@ -48,18 +44,6 @@ void screw_inflation_device(const Step& step, const SessionState&, double now_s,
 void give_drug(const Step& step, const SessionState&, OperatorState& state) {
   state.given.heparin_U = step.heparin_U, state.given.nitrate_ug = step.nitrate_ug;
   state.given.adenosine_ug = step.adenosine_ug;
-}
-
-void note_fluids(const Step&, const SessionState& session, OperatorState& state) {
-  state.began_gained_m3 = session.blood.heart.circulation.gained_m3;
-}
-
-double gained_m3(const SessionState& session, const OperatorState& state) {
-  return session.blood.heart.circulation.gained_m3 - state.began_gained_m3;
-}
-
-bool is_drained(const Step& step, const ConditionEvaluator& e) {
-  return -gained_m3(e.session, e.state) >= step.volume_m3 || e.session.blood.heart.circulation.pericardium_m3 <= 0;
 }
 
 void provoke(const Step& step, const SessionState&, OperatorState& state) {
@@ -82,16 +66,14 @@ constexpr Handling handlings[] = {
     {.action = data::ScriptAction::heart_rate,
      .begin = [](const Step& step, const SessionState&, OperatorState& state) { state.rate_1_min = step.rate_1_min; }},
     {.action = data::ScriptAction::inject,
-     .begin = fill_syringe,
+     .begin = [](const Step& step, const SessionState&,
+                 OperatorState& state) { state.iodine_kg_m3 = step.iodine_kg_m3; },
      .go_on = press_syringe,
-     .is_over = [](const Step& step,
-                   const ConditionEvaluator& e) { return injected_m3(e.session, e.state) >= step.volume_m3; }},
+     .moved_m3 = injected_m3},
     {.action = data::ScriptAction::aspirate,
-     .begin = note_fluids,
      .go_on = [](const Step& step, const SessionState&, double,
                  OperatorState& state) { state.given.aspiration_m3_s = step.rate_m3_s; },
-     .is_over = [](const Step& step,
-                   const ConditionEvaluator& e) { return -gained_m3(e.session, e.state) >= step.volume_m3; }},
+     .moved_m3 = [](const SessionState& session) { return session.blood.heart.circulation.drawn_m3; }},
     {.action = data::ScriptAction::inflate,
      .begin = [](const Step&, const SessionState&, OperatorState& state) { state.began_gauge_Pa = state.gauge_Pa; },
      .go_on = screw_inflation_device,
@@ -106,16 +88,15 @@ constexpr Handling handlings[] = {
     {.action = data::ScriptAction::give,
      .begin = [](const Step& step, const SessionState&, OperatorState& state) { state.given.drug_dose = step.dose; }},
     {.action = data::ScriptAction::infuse,
-     .begin = note_fluids,
      .go_on = [](const Step& step, const SessionState&, double,
                  OperatorState& state) { state.given.infusion_m3_s = step.rate_m3_s; },
-     .is_over = [](const Step& step,
-                   const ConditionEvaluator& e) { return gained_m3(e.session, e.state) >= step.volume_m3; }},
+     .moved_m3 = [](const SessionState& session) { return session.blood.heart.circulation.infused_m3; }},
     {.action = data::ScriptAction::drain,
-     .begin = note_fluids,
      .go_on = [](const Step& step, const SessionState&, double,
                  OperatorState& state) { state.given.drain_m3_s = step.rate_m3_s; },
-     .is_over = is_drained},
+     .is_over = [](const Step&,
+                   const ConditionEvaluator& e) { return e.session.blood.heart.circulation.pericardium_m3 <= 0; },
+     .moved_m3 = [](const SessionState& session) { return session.blood.heart.circulation.drained_m3; }},
     {.action = data::ScriptAction::shock,
      .begin = [](const Step& step, const SessionState&, OperatorState& state) { state.given.shock_J = step.energy_J; }},
     {.action = data::ScriptAction::compress,
@@ -167,6 +148,7 @@ int find_drug(const data::ScriptStep& step, const vascular::DrugModel& drugs, co
 
 void begin_action(const data::ScriptStep& step, int subject, const SessionState& session, OperatorState& state) {
   if (handling(step).begin) handling(step).begin(step, session, state);
+  if (handling(step).moved_m3) state.began_moved_m3 = handling(step).moved_m3(session);
   if (step.action == data::ScriptAction::provoke) state.given.provoked_cell = subject;
   if (step.action == data::ScriptAction::give) state.given.drug = subject;
 }
@@ -175,10 +157,24 @@ void continue_action(const data::ScriptStep& step, const SessionState& session, 
   if (handling(step).go_on) handling(step).go_on(step, session, now_s, state);
 }
 
-bool takes_time(const data::ScriptStep& step) { return !step.until.empty() || handling(step).is_over; }
+bool takes_time(const data::ScriptStep& step) {
+  return !step.until.empty() || handling(step).is_over || handling(step).moved_m3;
+}
 
-bool is_over(const data::ScriptStep& step, const ConditionEvaluator& evaluator) {
-  return step.until.empty() && handling(step).is_over && handling(step).is_over(step, evaluator);
+bool is_over(const data::ScriptStep& step, const ConditionEvaluator& e) {
+  if (!step.until.empty()) return false;
+  const Handling& how = handling(step);
+  if (how.moved_m3 && how.moved_m3(e.session) - e.state.began_moved_m3 >= step.volume_m3) return true;
+  return how.is_over && how.is_over(step, e);
+}
+
+std::string end_of_action(const data::ScriptStep& step, const ConditionEvaluator& e) {
+  if (handling(step).moved_m3)
+    return fmt::format("volume_mL {:g} (now {:.3g})", step.volume_m3 / units::mL,
+                       (handling(step).moved_m3(e.session) - e.state.began_moved_m3) / units::mL);
+  if (step.action == data::ScriptAction::inflate)
+    return fmt::format("gauge_atm {:g} (now {:.3g})", step.gauge_Pa / vacuum_Pa, e.state.gauge_Pa / vacuum_Pa);
+  return "an empty balloon";
 }
 
 }  // namespace ostium::app

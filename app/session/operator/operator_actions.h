@@ -20,4 +20,12 @@ bool takes_time(const data::ScriptStep& step);
 /// Whether the action has ended by itself, for steps without `until`.
 bool is_over(const data::ScriptStep& step, const ConditionEvaluator& evaluator);
 
+/// What that would be, for such steps, and how far it has come: "volume_mL 5 (now 1.2)".
+std::string end_of_action(const data::ScriptStep& step, const ConditionEvaluator& evaluator);
+
+/// Whether the action goes through a catheter in the body.
+constexpr bool needs_catheter(data::ScriptAction action) {
+  return action == data::ScriptAction::inject || action == data::ScriptAction::aspirate;
+}
+
 }  // namespace ostium::app

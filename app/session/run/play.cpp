@@ -115,9 +115,7 @@ PlayReport play(ScriptedRun& run, const RunSetup& setup, const PlayOptions& opti
   recorder.stop();
   out.simulated_s = seconds(run.model, run.state);
   out.outcome = words_for(aborted.empty() ? run.outcome : by_hand ? Outcome::ended : Outcome::aborted);
-  out.reason = aborted.empty() ? reason(run.plan, run.hands)
-               : by_hand       ? aborted
-                               : aborted + ", in " + reason(run.plan, run.hands);
+  out.reason = aborted.empty() ? reason(run) : by_hand ? aborted : aborted + ", in " + reason(run);
   if (const std::string tips = where_tips_lie(run.model, run.state, run.report); !out.reason.empty() && !tips.empty())
     out.reason += " (" + tips + ")";
   out.times.p50_ms = bins.percentile_ms(0.5), out.times.p99_ms = bins.percentile_ms(0.99);

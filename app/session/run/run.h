@@ -60,6 +60,11 @@ class ScriptedRun {
   Driver* driver_;
 };
 
+/// Why the operator ended it.
+inline std::string reason(const ScriptedRun& run) {
+  return reason(run.plan, run.model, run.state, run.report, run.hands);
+}
+
 /// "not_converged, motion_lost"
 std::string trouble_words(std::uint32_t trouble);
 

@@ -77,6 +77,7 @@ struct ScriptTool {
 struct ScriptLandmark {
   std::string name;
   Eigen::Vector3d p_P = Eigen::Vector3d::Zero();
+  int line = 0;
 };
 
 struct Script {

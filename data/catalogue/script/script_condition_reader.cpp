@@ -92,6 +92,8 @@ ScriptCondition read_condition(const JsonValue& value, const Script& script, con
   c.file = *value.file;
   c.line = value.line;
   c.kind = row.kind;
+  if (object.has("of") && row.of != ConditionOf::tool)
+    object["of"].fail(fmt::format("{} has no meaning beside {}, which is about no tool", object["of"].path(), row.key));
   if (object.has("of"))
     c.tool = tool_called(script, object["of"]);
   else if (!tools.empty())
@@ -143,7 +145,8 @@ JsonObjectKeys condition_keys() {
                        "which of the case's lesions, a whole number from 1 on; the first if it is not said; beside "
                        "what is about one",
                        json_type::whole(from_to(1, 100))});
-  keys.keys.push_back({"of", false, "which tool is meant; else the step's first", json_type::text()});
+  keys.keys.push_back(
+      {"of", false, "which tool is meant; else the step's first; beside what is about one", json_type::text()});
   return keys;
 }
 

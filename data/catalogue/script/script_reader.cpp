@@ -236,7 +236,7 @@ Script read(JsonValue file, const std::string& text) {
       for (const ScriptLandmark& other : script.landmarks)
         if (other.name == landmark.text("name"))
           value.fail(value.path() + ".name: there is another landmark of that name");
-      script.landmarks.push_back({landmark.text("name"), 1e-3 * Eigen::Vector3d(mm[0], mm[1], mm[2])});
+      script.landmarks.push_back({landmark.text("name"), 1e-3 * Eigen::Vector3d(mm[0], mm[1], mm[2]), value.line});
     }
   const std::vector<JsonValue>& steps = root.list("steps");
   if (steps.empty()) root.refuse("steps");

@@ -157,6 +157,12 @@ void write_pixels(Writer& out, const fluoro::CineRun& run) {
 
 void require_dicom() {}
 
+bool is_whole_dicom(const std::string& file) {
+  OFLog::configure(OFLogger::OFF_LOG_LEVEL);
+  DcmFileFormat format;
+  return format.loadFile(file.c_str(), EXS_Unknown, EGL_noChange, 64, ERM_fileOnly).good();
+}
+
 std::string new_study_uid() { return unique(SITE_STUDY_UID_ROOT); }
 
 void write_dicom(const std::string& file, const fluoro::CineRun& run, const DicomPatient& patient,

@@ -25,6 +25,9 @@ void require_dicom();
 
 std::string new_study_uid();
 
+/// Whether a DICOM file is there to its end.
+bool is_whole_dicom(const std::string& file);
+
 /// Bytes of pixels that one file can hold: its lengths have 32 bits, of which some are for the rest.
 inline constexpr std::uint64_t dicom_most_bytes = 0xFFFF0000;
 

@@ -15,6 +15,8 @@ void require_dicom() { throw LoadError("this build writes no DICOM; expected one
 
 std::string new_study_uid() { return ""; }
 
+bool is_whole_dicom(const std::string&) { return false; }
+
 void write_dicom(const std::string& file, const fluoro::CineRun&, const DicomPatient&, const DicomPlace&) {
   throw WriteError(file + ": this build writes no DICOM; build with OSTIUM_DICOM");
 }

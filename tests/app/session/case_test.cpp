@@ -246,5 +246,78 @@ TEST(CaseVessel, GoingBackLeavesAScriptWhatIsItsOwn) {
   EXPECT_EQ(to.infusion_m3_s, 0) << "an order before time goes on";
 }
 
+RunSetup fluids(const std::string& steps) {
+  RunSetup setup = case_setup();
+  set_script(data::read_script("fluids.json", R"({ "schema": "ostium-script/1", "name": "fluids", "title": "A test",
+    "tools": [ { "name": "guide", "instrument": "guide-jr4-6f" } ], "steps": [ )" +
+                                                  steps + " ] }"),
+             setup);
+  return setup;
+}
+
+/// A trainer's infusion.
+struct Bag : Driver {
+  Driven drive(const ScriptedRun&, SessionInputs& inputs) override {
+    inputs.delivery.infusion_m3_s = std::max(inputs.delivery.infusion_m3_s, 4e-6);
+    return Driven::on;
+  }
+};
+
+TEST(CaseVessel, AnActionEndsByWhatItMovedItselfWhateverElseRuns) {
+  Bag bag;
+  ScriptedRun run(fluids(R"({ "do": "advance", "tool": "guide", "speed_mm_s": 200, "until": [{ "inserted_mm": 20 }] },
+    { "do": "aspirate", "rate_mL_s": 4, "volume_mL": 2, "timeout_s": 1 },
+    { "do": "infuse", "rate_mL_s": 1, "volume_mL": 1, "timeout_s": 0.5 })"),
+                  case_vessel(), &bag);
+  while (run.tick()) {
+  }
+  EXPECT_EQ(run.outcome, Outcome::success) << reason(run);
+  EXPECT_NEAR(run.state.blood.heart.circulation.drawn_m3, 2e-6, 0.1e-6);
+}
+
+TEST(CaseVessel, AStepThatTimesOutSaysWhatItWaitedForAndSaw) {
+  const auto why = [](const std::string& steps) {
+    ScriptedRun run(fluids(steps), case_vessel());
+    while (run.tick()) {
+    }
+    return reason(run);
+  };
+  EXPECT_EQ(
+      why(R"({ "do": "aspirate", "rate_mL_s": 4, "volume_mL": 2, "timeout_s": 0.1 })"),
+      "step 1 of 1, aspirate: timed out after 0.1 s, waiting for volume_mL 2 (now 0); no catheter is in the body");
+  EXPECT_EQ(why(R"({ "do": "infuse", "rate_mL_s": 4, "volume_mL": 2, "timeout_s": 0.1 })"),
+            "step 1 of 1, infuse: timed out after 0.1 s, waiting for volume_mL 2 (now 0.4)");
+  EXPECT_EQ(why(R"({ "do": "wait", "timeout_s": 0.1, "until": [{ "seconds": 0.2 }, { "tip_passes": "arch", "of":
+                    "guide" }, { "engaged": "RCA" }, { "balloon_at_mm": 0 }, { "contrast_in": "RCA+20" }] })"),
+            "step 1 of 1, wait: timed out after 0.1 s, waiting for seconds 0.2 (now 0.1) or tip_passes arch of guide "
+            "(guide is out of the body) or engaged RCA (no catheter is in the body) or balloon_at_mm 0 (no balloon is "
+            "in the body) or contrast_in RCA+20 (the beam is off)");
+}
+
+TEST(CaseVessel, WhatTheToolsOrTheVesselRuleOutIsRefused) {
+  const auto refusal = [](const std::string& steps, const std::string& from, const std::string& to) {
+    RunSetup setup = fluids(steps);
+    std::string text = setup.script.source;
+    text.replace(text.find(from), from.size(), to);
+    try {
+      set_script(data::read_script("fluids.json", text), setup);
+      ScriptedRun run(setup, case_vessel());
+    } catch (const data::LoadError& error) {
+      return std::string(error.what());
+    }
+    return std::string("accepted");
+  };
+  const std::string air = R"({ "do": "provoke", "complication": "air" })";
+  EXPECT_EQ(refusal(air, "A test", "A test"), "accepted");
+  EXPECT_EQ(refusal(air, "guide-jr4-6f", "cook-j"),
+            "fluids.json:2: provoke: no tool is a catheter for it; expected one among the tools");
+  const auto landmark = [](const std::string& name) {
+    return R"("landmarks": [ { "name": ")" + name + R"(", "at_mm": [0, 0, 0] } ], "steps")";
+  };
+  EXPECT_EQ(refusal(air, "\"steps\"", landmark("mine")), "accepted");
+  EXPECT_EQ(refusal(air, "\"steps\"", landmark("RCA")),
+            "fluids.json:2: there is a place \"RCA\" in this vessel; expected another name for the landmark");
+}
+
 }  // namespace
 }  // namespace ostium::app

@@ -22,7 +22,7 @@ TEST(Operator, SaysWhyItFailed) {
   EXPECT_EQ(pushed.reason, "step 2 of 5, advance (to the bend): wall_force_exceeds_N 0.001");
   const PlayReport late = played(tube_setup(with(there_and_back, "\"timeout_s\": 5", "\"timeout_s\": 0.5")));
   EXPECT_EQ(late.outcome, "failure");
-  EXPECT_EQ(late.reason, "step 2 of 5, advance (to the bend): timed out after 0.5 s");
+  EXPECT_EQ(late.reason, "step 2 of 5, advance (to the bend): timed out after 0.5 s, waiting for tip_passes bend");
   EXPECT_NEAR(late.simulated_s, 0.5, 0.01);
   const PlayReport anyhow =
       played(tube_setup(with(there_and_back, "\"timeout_s\": 5", "\"timeout_s\": 0.5, \"otherwise\": \"go on\"")));
@@ -74,7 +74,7 @@ TEST(Operator, TakesADetourOnlyWhereALabelLeadsToIt) {
     int begun = 0;
     while (run.tick())
       for (const OperatorEvent& event : run.events) begun += event.kind == OperatorEvent::Kind::begins;
-    EXPECT_EQ(run.outcome, Outcome::success) << reason(run.plan, run.hands);
+    EXPECT_EQ(run.outcome, Outcome::success) << reason(run);
     const double fed_m = run.state.hands[0].fed_m;
     EXPECT_NEAR(fed_m, needed_mm < 10 ? 0.01 : 0.03, 0.001);
     EXPECT_EQ(begun, needed_mm < 10 ? 2 : 8);
@@ -99,7 +99,7 @@ TEST(Operator, LeavesOutStepsThatAreNotNeeded) {
     ScriptedRun run(setup, tube_vessel());
     while (run.tick()) {
     }
-    EXPECT_EQ(run.outcome, Outcome::success) << reason(run.plan, run.hands);
+    EXPECT_EQ(run.outcome, Outcome::success) << reason(run);
     EXPECT_NEAR(run.state.hands[0].fed_m, needed ? 0.035 : 0.02, 0.001);
   }
 }
@@ -115,7 +115,7 @@ TEST(Operator, LooksAtWhereTheTipPointsAndWhetherItIsOut) {
   Eigen::Vector3d pointed = Eigen::Vector3d::Zero();
   while (run.tick())
     if (run.hands.step == 1 && pointed.isZero()) pointed = tip_direction(run.model, run.state, 0);
-  EXPECT_EQ(run.outcome, Outcome::success) << reason(run.plan, run.hands);
+  EXPECT_EQ(run.outcome, Outcome::success) << reason(run);
   EXPECT_GT(pointed.y(), std::cos(27 * units::pi / 180)) << "the tube's far end runs along y";
   EXPECT_FALSE(run.report.tools[0].in_body);
 }
@@ -130,7 +130,7 @@ TEST(Operator, TurnsAHubBackToHowItCameIn) {
   ScriptedRun run(setup, tube_vessel());
   while (run.tick()) {
   }
-  EXPECT_EQ(run.outcome, Outcome::success) << reason(run.plan, run.hands);
+  EXPECT_EQ(run.outcome, Outcome::success) << reason(run);
   // Whole turns count, so -400 degrees are not near 0; at most two steps late, of 0.4 degrees each.
   EXPECT_NEAR(run.state.hands[0].turned_rad * 180 / units::pi, -10, 0.9);
 }
@@ -186,7 +186,7 @@ TEST(Operator, ExchangesOneToolForAnother) {
     "landmarks": [ { "name": "bend", "at_mm": [142, 18, 0] } ] })";
   ScriptedRun run(tube_setup(script), tube_vessel());
   while (run.tick()) EXPECT_FALSE(run.report.tools[0].in_body && run.report.tools[1].in_body);
-  EXPECT_EQ(run.outcome, Outcome::success) << reason(run.plan, run.hands);
+  EXPECT_EQ(run.outcome, Outcome::success) << reason(run);
   EXPECT_FALSE(run.report.tools[0].in_body);
   EXPECT_TRUE(run.report.tools[1].in_body);
   EXPECT_EQ(run.troubled, 0);

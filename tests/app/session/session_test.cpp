@@ -95,7 +95,9 @@ TEST(Session, AToolWhoseDriveIsOutStaysAndTheRunSaysSo) {
   set_value("stuck", "wire", setup);
   const PlayReport report = played(setup);
   EXPECT_EQ(report.outcome, "failure");
-  EXPECT_EQ(report.reason, "step 2 of 5, advance (to the bend): timed out after 5 s");
+  EXPECT_EQ(
+      report.reason,
+      "step 2 of 5, advance (to the bend): timed out after 5 s, waiting for tip_passes bend (wire is out of the body)");
   EXPECT_EQ(to_json(setup_from_json("a file", to_json(setup))), to_json(setup));
 }
 

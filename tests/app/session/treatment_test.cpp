@@ -26,14 +26,14 @@ TEST(Treatment, ABalloonOpensTheLesionAndTheWallThatRodsMeet) {
   ScriptedRun run(setup(), vessel());
   const double before = lesion_now(run.model, run.state).stenosis;
   EXPECT_NEAR(before, 0.70, 0.02);
-  ASSERT_TRUE(run_to(run, 3)) << reason(run.plan, run.hands);
+  ASSERT_TRUE(run_to(run, 3)) << reason(run);
   EXPECT_EQ(run.state.coupling.tip.where, vascular::TipPlace::coronary);
   EXPECT_GT(run.state.blood.contrast.from_tip_kg, 0);
-  ASSERT_TRUE(run_to(run, 6)) << reason(run.plan, run.hands);
+  ASSERT_TRUE(run_to(run, 6)) << reason(run);
   ASSERT_TRUE(balloon_from_lesion_m(run.model, run.state));
   EXPECT_NEAR(*balloon_from_lesion_m(run.model, run.state), 0, 6e-3) << "its 12 mm lie over the lesion's middle";
   const double open_flow = supply_behind_lesion(run.model, run.state);
-  ASSERT_TRUE(run_to(run, 9)) << reason(run.plan, run.hands);
+  ASSERT_TRUE(run_to(run, 9)) << reason(run);
   EXPECT_GT(run.state.treatment.balloon.pressure_Pa, 3 * 101325.0);
   EXPECT_GT(balloon_artery_ratio(run.model, run.state), 0.6);
   EXPECT_LT(supply_behind_lesion(run.model, run.state), open_flow);
@@ -56,8 +56,7 @@ TEST(Treatment, ABalloonOpensTheLesionAndTheWallThatRodsMeet) {
   // Deflated, then a second device cannot enter beside it, and the run says so.
   EXPECT_FALSE(run_to(run, 11));
   EXPECT_EQ(run.outcome, Outcome::failure);
-  EXPECT_NE(reason(run.plan, run.hands).find("balloon is still in the body"), std::string::npos)
-      << reason(run.plan, run.hands);
+  EXPECT_NE(reason(run).find("balloon is still in the body"), std::string::npos) << reason(run);
   const std::string tips = where_tips_lie(run.model, run.state, run.report);
   const std::size_t wire = tips.find("wire ");
   ASSERT_NE(wire, std::string::npos) << tips;
@@ -106,7 +105,7 @@ struct StentAhead {
   StentAhead() : run(stent_setup(), vessel()), scratch(run.model) {
     while (run.tick()) {
     }
-    EXPECT_EQ(run.outcome, Outcome::success) << reason(run.plan, run.hands);
+    EXPECT_EQ(run.outcome, Outcome::success) << reason(run);
     inputs = run.inputs;
     for (ToolInputs& tool : inputs.tools) tool = {};
   }
@@ -202,7 +201,7 @@ TEST(Treatment, ADeviceThatReachesOutOfTheOstiumLiesInTheArtery) {
 
 TEST(Treatment, AnOpenBalloonStaysInItsArtery) {
   ScriptedRun run(setup(), vessel());
-  ASSERT_TRUE(run_to(run, 6)) << reason(run.plan, run.hands);
+  ASSERT_TRUE(run_to(run, 6)) << reason(run);
   const CouplingModel model{*run.model.vessel,    run.model.tools,     run.model.rods,
                             run.model.physiology, run.model.treatment, run.model.balloon_of};
   CouplingScratch scratch(*run.model.vessel);

@@ -32,7 +32,7 @@ RunSetup by_hand(RunSetup setup) {
 struct Played {
   RunSetup setup = by_hand(tube_setup(R"({ "schema": "ostium-script/1", "name": "plays", "title": "A test",
     "tools": [ { "name": "wire", "instrument": "cook-j" } ],
-    "steps": [ { "do": "wait", "timeout_s": 100, "until": [{ "seconds": 90, "of": "wire" }] } ] })"));
+    "steps": [ { "do": "wait", "timeout_s": 100, "until": [{ "seconds": 90 }] } ] })"));
   ScriptedRun run{setup, tube_vessel()};
   LiveDriver hand{run.model, Hands::seats, 15};
   Controls& keys = hand.controls(Seat::window);
@@ -93,7 +93,7 @@ TEST(LiveDriver, PauseStandsAndTheEndEnds) {
   p.keys.order(ConsoleCommand::end);
   EXPECT_FALSE(p.run.tick());
   EXPECT_EQ(p.run.outcome, Outcome::ended) << "by the one who played";
-  EXPECT_EQ(reason(p.run.plan, p.run.hands), "by the operator");
+  EXPECT_EQ(reason(p.run), "by the operator");
   EXPECT_EQ(p.run.state.rods.step, 101u);
 }
 

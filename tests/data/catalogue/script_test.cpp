@@ -121,6 +121,8 @@ TEST(Script, MistakesAreNamedByLine) {
   expect_words(script_refusal(points, "\"tip_on\": \"LAD\", \"by_mm\": 5"), {"small.json:12:", "by_mm"});
   expect_words(script_refusal("{ \"seconds\": 3 }", "{ \"seconds\": 3, \"beats\": 2 }"),
                {"small.json:10:", "both seconds and beats"});
+  expect_words(script_refusal("{ \"seconds\": 3 }", "{ \"seconds\": 3, \"of\": \"wire\" }"),
+               {"small.json:10:", ".of has no meaning beside seconds"});
   expect_words(script_refusal("{ \"seconds\": 3 }", "{ }"), {"small.json:10:", "says nothing to look at"});
   expect_words(script_refusal("\"label\": \"up\"", "\"label\": \"up\", \"timeout_s\": 0"), {"small.json:"});
   expect_words(script_refusal("{ \"name\": \"wire\"", "{ \"name\": \"guide\""),

@@ -2,6 +2,7 @@
 import os
 from collections import defaultdict
 from dataclasses import dataclass
+from fnmatch import fnmatchcase
 
 LONGEST = 400  # lines of a file that is no table
 
@@ -18,7 +19,7 @@ class Finding:
 
 
 def read_layers(path):
-    """{folder: {name in it: level}}; and the files that may be long."""
+    """{folder: {name in it: level}}; the files that may be long; the names that may lie at the top."""
     layers, section = {}, None
     with open(path, encoding="utf-8") as file:
         for line in file:
@@ -28,7 +29,8 @@ def read_layers(path):
             elif line:
                 level = 1 + max(section.values(), default=-1)
                 section.update({name: level for name in line.split()})
-    return layers, set(layers.pop("tables", {}))
+    tables, top = set(layers.pop("tables", {})), set(layers.pop("top", {}))
+    return layers, tables, top | set(layers["."])
 
 
 def edges(sources):
@@ -169,6 +171,16 @@ def twins(sources):
             yield Finding(path, line, f"{name} is defined here and in {also}",
                           "give one another name or namespace; what one source alone uses goes into its own "
                           "namespace without a name")
+
+
+def strays(names, ignored, top):
+    """Of the names at the top of the checkout, those that do not belong there."""
+    made = [pattern.strip("/") for pattern in ignored]
+    for name in sorted(names):
+        if name not in top and name[0] != "." and not any(fnmatchcase(name, pattern) for pattern in made):
+            yield Finding(name, 1, "has strayed to the top of the checkout",
+                          "move it where it belongs, or add it to [top] of layers.txt; what a program makes is named "
+                          "in .gitignore")
 
 
 def all_findings(sources, layers, tables):

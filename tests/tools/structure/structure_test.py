@@ -6,7 +6,7 @@ import tempfile
 import unittest
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from rules import all_findings, read_layers
+from rules import all_findings, read_layers, strays
 from sources import defined_types, read
 
 LAYERS = """
@@ -32,11 +32,16 @@ def findings(files, layers_text=LAYERS):
             os.makedirs(os.path.dirname(os.path.join(root, path)), exist_ok=True)
             with open(os.path.join(root, path), "w", encoding="utf-8") as file:
                 file.write(text)
-        layers, tables = read_layers(os.path.join(root, "layers.txt"))
+        layers, tables, _ = read_layers(os.path.join(root, "layers.txt"))
         return [(f.path, f.line, f.what) for f in all_findings(read(root), layers, tables)]
 
 
 class Structure(unittest.TestCase):
+    def test_what_has_strayed_to_the_top_is_named(self):
+        names = ["core", "README.md", ".git", "build", "build-asan", "report.html", "out", "__pycache__", "notes"]
+        found = strays(names, ["/build/", "/build-*/", "/out/", "__pycache__/"], {"core", "README.md"})
+        self.assertEqual([f.path for f in found], ["notes", "report.html"])
+
     def test_a_clean_tree_passes(self):
         self.assertEqual(findings({
             "core/math/field.h": "#include <vector>\nnamespace ostium {\nstruct Field { int n; };\n}\n",

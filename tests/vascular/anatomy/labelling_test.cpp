@@ -98,6 +98,10 @@ TEST_P(LabellingOfKind, IsRight) {
   EXPECT_EQ(found.heart, found.heart_doubt > 0 && found.heart_doubt < 1);
   if (!made.heart && !made.aorta) expect_as_it_was(found, found.lumen);
   EXPECT_TRUE(!made.heart || find_branch(found.anatomy, "LAD"));
+  const bool mirrored = std::any_of(found.notes.begin(), found.notes.end(), [](const std::string& note) {
+    return note.find("its mirror image has") != std::string::npos;
+  });
+  EXPECT_EQ(mirrored, GetParam() == "mirrored coronary arteries");
 }
 
 INSTANTIATE_TEST_SUITE_P(Labelling, LabellingOfKind, testing::ValuesIn(synthetic::made_up_kinds()),

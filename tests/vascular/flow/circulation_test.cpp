@@ -52,7 +52,8 @@ TEST(Circulation, NoBloodComesOrGoesUnaccounted) {
   person.run(20);
   // Rounding of a hundred thousand steps of volumes of some 0.4 L.
   EXPECT_NEAR(conserved_m3(person.state.circulation), before, 1e-9 * before);
-  EXPECT_GT(person.state.circulation.gained_m3, 0);
+  EXPECT_GT(person.state.circulation.infused_m3, 0);
+  EXPECT_NEAR(person.state.circulation.drained_m3, 60 * mL, 1e-9 * before);
 }
 
 TEST(Circulation, APersonAtRestIsOne) {

@@ -11,6 +11,7 @@
 
 #include "tests/vascular/geometry/shapes.h"
 #include "vascular/geometry/mesh/surface_check.h"
+#include "vascular/geometry/mesh_files/open_end.h"
 #include "vascular/geometry/mesh_files/rounding.h"
 #include "vascular/geometry/mesh_files/written_mesh.h"
 
@@ -140,6 +141,26 @@ TEST(Mesh, WhatWasCutShortOrBrokenIsRefused) {
     text[at] = '9';
     EXPECT_NE(refusal(written("broken.gltf", text)), "accepted") << broken;
   }
+}
+
+/// What was cut within the last number is read as another face.
+TEST(Mesh, ATextWhoseLastLineHasNoEndIsDoubted) {
+  const std::string obj = "v 0 0 0\nv 9 0 0\nv 0 9 0\nf 1 2 3";
+  const std::string ply = "ply\nformat ascii 1.0\nelement vertex 0\nend_header\n3 0 1 2";
+  const auto doubted = [](const std::string& name, const std::string& text) {
+    return doubt_of_mesh_end(written(name, text)).find("last number may have been cut") != std::string::npos;
+  };
+  for (const auto& [name, text] : {std::pair{"end.obj", obj},
+                                   {"end.ply", ply},
+                                   {"end.off", "OFF\n0 1 0\n3 0 1 2"},
+                                   {"end.vtk", "# vtk DataFile Version 3.0\nx\nASCII\n3 0 1 2"}}) {
+    EXPECT_TRUE(doubted(name, text)) << name;
+    for (const char* whole : {"\n", "\r\n", " ", "\n# made by hand"})
+      EXPECT_FALSE(doubted(name, text + std::string(whole)));
+  }
+  EXPECT_FALSE(doubted("binary.ply", "ply\nformat binary_little_endian 1.0\nend_header\n3 0 1 2"));
+  EXPECT_FALSE(doubted("end.stl", "solid x\nendsolid x"));
+  EXPECT_EQ(doubt_of_mesh_end(temporary("no-such.obj")), "");
 }
 
 TEST(Mesh, AFaceThatWouldBeLeftOutIsRefused) {

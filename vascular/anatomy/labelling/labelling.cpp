@@ -86,6 +86,21 @@ void move_to_ostium(LabelledVessels& out) {
   for (Eigen::Vector3d& p : out.lumen.vertices) p -= shift;
 }
 
+/// Whether coronary arteries would be recognised in its mirror image: an export of left-handed axes, or with one turned
+/// round alone.
+bool is_mirrored(const Mesh& lumen, const MeanCourses& mean, const Progress& say) {
+  say("looking at its mirror image");
+  Mesh image = lumen;
+  for (Eigen::Vector3d& p : image.vertices) p.x() = -p.x();
+  for (auto& t : image.triangles) std::swap(t[1], t[2]);
+  std::vector<LumenPart> parts = lumen_parts(image, [](const std::string&) {});
+  std::optional<AortaMatch> aorta = match_aorta(parts.front(), mean, [](const std::string&) {});
+  if (aorta && aorta->doubt >= 1) aorta.reset();
+  std::vector<std::string> notes;
+  const std::optional<HeartMatch> heart = match_heart(parts, aorta ? &*aorta : nullptr, mean, false, notes);
+  return heart && heart->doubt < 1;
+}
+
 }  // namespace
 
 LabelledVessels label_vessels(const Mesh& lumen, const LabellingOptions& options) {
@@ -121,6 +136,10 @@ LabelledVessels label_vessels(const Mesh& lumen, const LabellingOptions& options
     }
     if (heart) out.heart_doubt = heart->doubt;
     if (out.heart_doubt >= 1 && !assumed) heart.reset();
+    if (!heart && !assumed && (aorta || out.heart_doubt > 0) && is_mirrored(lumen, mean, say))
+      out.notes.push_back(
+          "its mirror image has coronary arteries, and it has none: an export turned one axis round, or its axes are "
+          "left-handed; mirror it back (x to -x) and import that");
   }
   out.heart = heart.has_value();
   if (aorta) out.aorta_rms_m = aorta->fit.rms_m;
