@@ -19,10 +19,11 @@ constexpr double skin_N_m2 = 1e5;       // of the shaft against the skin round i
 constexpr double most_N = 3;            // a shaft kinks at higher force [estimate]
 
 /// Gauss and Legendre, on [0, 1].
-constexpr std::array<double, 8> at = {0.019855071751232, 0.101666761293187, 0.237233795041836, 0.408282678752175,
-                                      0.591717321247825, 0.762766204958164, 0.898333238706813, 0.980144928248768};
-constexpr std::array<double, 8> weight = {0.050614268145188, 0.111190517226687, 0.156853322938944, 0.181341891689181,
-                                          0.181341891689181, 0.156853322938944, 0.111190517226687, 0.050614268145188};
+constexpr std::array<double, 8> gauss_at = {0.019855071751232, 0.101666761293187, 0.237233795041836, 0.408282678752175,
+                                            0.591717321247825, 0.762766204958164, 0.898333238706813, 0.980144928248768};
+constexpr std::array<double, 8> gauss_weight = {0.050614268145188, 0.111190517226687, 0.156853322938944,
+                                                0.181341891689181, 0.181341891689181, 0.156853322938944,
+                                                0.111190517226687, 0.050614268145188};
 
 /// Solves the symmetric system with two diagonals beside the main one; overwrites it.
 void solve_banded(BalloonScratch& x) {
@@ -64,8 +65,8 @@ CircleAside press_circle(const WallLaw& wall, double from_m, double a, double y)
   // Up to the angle to which it touches.
   const double to = a - y >= from_m ? pi : std::acos((from_m - a) / y);
   const double elsewhere_Pa = wall.at(from_m).p_Pa;
-  for (std::size_t k = 0; k < at.size(); ++k) {
-    const double c = std::cos(to * at[k]), share = weight[k] * to / pi;
+  for (std::size_t k = 0; k < gauss_at.size(); ++k) {
+    const double c = std::cos(to * gauss_at[k]), share = gauss_weight[k] * to / pi;
     const WallPressure p = wall.at(a + y * c);
     out.mean.p_Pa += share * p.p_Pa, out.mean.slope_Pa_m += share * p.slope_Pa_m;
     out.back_N_m += share * 2 * pi * a * (p.p_Pa - elsewhere_Pa) * c;
