@@ -23,9 +23,15 @@ std::vector<Metric> metrics_of(const RunRecord& record) {
   return out;
 }
 
+std::string duration_text(double seconds) {
+  if (seconds < 60) return fmt::format("{:.3g} s", seconds);
+  const auto whole = static_cast<long>(seconds);
+  return fmt::format("{}:{:02}", whole / 60, whole % 60);
+}
+
 std::string value_text(const Metric& metric) {
   if (!std::isfinite(metric.value)) return "";
-  if (metric.unit == "s" && metric.value >= never_s) return "never";
+  if (metric.unit == "s") return metric.value >= never_s ? "never" : duration_text(metric.value);
   return fmt::format("{:.4g}{}", metric.value, metric.unit == "1" ? "" : " " + metric.unit);
 }
 

@@ -19,7 +19,9 @@ struct Metric {
 
 /// Of a time until something that never came: more than any limit.
 inline constexpr double never_s = 1e6;
-/// For people: "2.51 N", "never"; "" if it does not apply.
+/// For people, from a minute on as the clock of the run writes it: "12.3 s", "6:52".
+std::string duration_text(double seconds);
+/// For people: "2.51 N", "6:52", "never"; "" if it does not apply.
 std::string value_text(const Metric& metric);
 
 /// Whether lower or higher is better, all else being equal. `neither`: descriptive, or the best lies in between.

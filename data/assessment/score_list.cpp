@@ -73,7 +73,8 @@ Score judge(const ScoreItem& item, const RunRecord& record, const std::vector<Me
         std::find_if(metrics.begin(), metrics.end(), [&](const Metric& m) { return m.name == check.metric; });
     if (metric == metrics.end() || !std::isfinite(metric->value)) return out;
     out.holds = ticked(within(metric->value, check));
-    out.value = fmt::format("{:.3g} {}", metric->value, metric->unit == "1" ? "" : metric->unit);
+    out.value = metric->unit == "s" ? value_text(*metric)
+                                    : fmt::format("{:.3g} {}", metric->value, metric->unit == "1" ? "" : metric->unit);
     return out;
   }
   const std::vector<double> at = times(record, *check.event);

@@ -88,6 +88,22 @@ def begin(browser):
     return wanted_cm
 
 
+def bar_stands_still(browser):
+    """Under the mouse; until then it shows all of the run, however long that has got."""
+    browser.wait("longer than the bar at first", f"{CLOCK} >= 22", 60)
+    left, top, width = browser.run("const box = document.getElementById('bar').getBoundingClientRect();"
+                                   "return [box.left, box.top, box.width]")
+    move = {"type": "pointerMove", "x": int(left + width / 2), "y": int(top) + 10, "duration": 0}
+    chosen = "document.getElementById('bar').getAttribute('aria-valuenow')"
+    seen = []
+    for x in (0, 1, 0):  # each time it asks which second lies there
+        browser.ask("POST", "/actions", {"actions": [{"type": "pointer", "id": "mouse", "actions": [{**move, "x": move["x"] + x}]}]})
+        begun = browser.run(f"return {CLOCK}")
+        browser.wait("time goes on", f"{CLOCK} >= {begun + 3}", 60)
+        seen.append(browser.run("return " + chosen))
+    assert len(set(seen)) == 1, f"the bar moved under the mouse: {seen}"
+
+
 def pass_lesson(browser, wanted_cm):
     """After the program was killed."""
     browser.wait("the same lesson", IN_LESSON, 40)
@@ -113,6 +129,7 @@ def pass_lesson(browser, wanted_cm):
     click(browser, "#pause")
     keys(browser, (True, " "), (True, "d"))
     browser.wait("turned", f"{TICKS}.startsWith('✔✔✔✔✔')", 40)
+    bar_stands_still(browser)
     keys(browser, (False, "d"), (True, "s"))
     browser.wait("out", f"{IN_CM} === 'out'", 120)
     keys(browser, (False, "s"), (False, " "))

@@ -234,6 +234,7 @@ std::string message_of(const Setting& setting, const Snapshot& now, const LivePi
       {"late", now.overruns},
       {"step", now.script_step},
       {"right_hand", now.right_hand},
+      {"reference", live.reference().picture() != nullptr},
       {"refused", now.refused},
       {"in_its_way", now.in_its_way},
       {"tools", tools},

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "data/assessment/metrics.h"
+
 namespace ostium::app {
 
 namespace {
@@ -42,7 +44,8 @@ std::string injury_words(double value) {
 std::string value_words(const data::EventDefinition& definition, double value) {
   const std::string& unit = definition.value;
   const std::string first = unit.substr(0, unit.find_first_of(" ,"));
-  for (const char* known : {"N", "mm", "mm3", "s", "mL/s", "mL", "U", "ug", "atm", "degrees", "J"})
+  if (first == "s") return ", " + data::duration_text(value);
+  for (const char* known : {"N", "mm", "mm3", "mL/s", "mL", "U", "ug", "atm", "degrees", "J"})
     if (first == known)
       return std::fabs(value) < 1000 ? fmt::format(", {:.3g} {}", value, first)
                                      : fmt::format(", {:.0f} {}", value, first);

@@ -230,6 +230,7 @@ function show() {
   }));
   $('step').textContent = script && now.step >= 0 ? welcome.steps[now.step] ?? '' : now.refused >= 0 && now.in_its_way >= 0
     ? `${welcome.tools[now.refused].name} cannot enter: ${welcome.tools[now.in_its_way].name} is in its place` : '';
+  if (!now.reference) $('reference').hidden = true;
   timeline.tick(now.s);
   console_.show(now, welcome);
   emergency.show(now, welcome);

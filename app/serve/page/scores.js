@@ -60,7 +60,8 @@ export class Scores {
       const needed = !welcome.lesson.needed.length || welcome.lesson.needed.includes(i);
       row.className = open ? 'open' : holds ? 'yes' : needed ? 'no' : 'aside';
       const sign = open ? '○' : holds ? '✔' : item.kind === 'step' ? '–' : needed ? '✖' : '▲';
-      const when = score?.at_s?.length ? score.at_s.slice(0, 3).map(clock).join(' ') + (score.at_s.length > 3 ? ` … ${score.at_s.length} times` : '') : score?.value ?? '';
+      const came_s = item.kind === 'step' || !holds; // of what did not happen there is no moment
+      const when = came_s && score?.at_s?.length ? score.at_s.slice(0, 3).map(clock).join(' ') + (score.at_s.length > 3 ? ` … ${score.at_s.length} times` : '') : score?.value ?? '';
       const came = open || (item.kind === 'step' && holds) ? '' : item.kind === 'step' ? ': not done' : holds ? ': did not happen' : ': happened';
       const what = open && item.kind !== 'step' ? `Must not happen: ${item.what}` : item.what;
       const means = ended && !open && !holds && !needed ? `. This counts: ${item.when}. It may happen in a lesson that is passed` : '';

@@ -11,10 +11,13 @@ export class Timeline {
     this.last = 0;
     this.now = 0;
     this.chosen = null;
+    this.held = null;
     this.branches = [];
     this.enabled = false;
     bar.addEventListener('pointermove', (e) => { this.choose(this.second(e)); });
-    bar.addEventListener('pointerleave', () => { this.choose(null); });
+    // Under the mouse the bar stands still, while time goes on.
+    bar.addEventListener('pointerenter', () => { this.held = this.span(); });
+    bar.addEventListener('pointerleave', () => { this.held = null; this.choose(null); });
     bar.addEventListener('click', (e) => { if (this.enabled) ask(this.second(e)); });
     bar.addEventListener('keydown', (e) => {
       const by = { ArrowLeft: -1, ArrowRight: 1, PageDown: -10, PageUp: 10, Home: -1e9, End: 1e9 }[e.key];
@@ -29,7 +32,7 @@ export class Timeline {
     const box = this.bar.getBoundingClientRect();
     return Math.max(0, Math.min(Math.floor(this.now), Math.round((e.clientX - box.left) / box.width * this.span())));
   }
-  span() { return Math.max(20, this.now * 1.02); }
+  span() { return this.held ?? Math.max(20, this.now * 1.02); }
   choose(second) {
     this.chosen = second;
     this.draw();

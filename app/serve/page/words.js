@@ -7,6 +7,7 @@ const words = [
   ['C-arm', 'the frame with X-ray tube and camera, which turns round the patient'],
   ['cine', 'a film: more X-rays, a better picture, and it is kept'],
   ['contrast', 'a dye that X-rays see; injected through the guide it shows the blood'],
+  ['Conus, RV, PLV, PDA', 'branches of the right coronary: the first two leave it on the way, the others are where it ends'],
   ['coronary arteries', 'they feed the heart itself: the right coronary (RCA), and the left main (LM) with its two branches LAD and LCx'],
   ['damped, ventricularised', 'the pressure curve gets flat, or falls deeply in each beat: the tip of the guide closes the artery'],
   ['dose', 'how much X-rays the patient gets'],

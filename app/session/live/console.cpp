@@ -38,7 +38,7 @@ int next_tool(const SessionModel& model, int left, int right) {
 }  // namespace
 
 Console::Console(const SessionModel& model) : left_(first_guide(model)) {
-  if (model.tools.size() > 1) right_ = left_ == 0 ? 1 : 0;
+  if (model.tools.size() > 1) right_ = first_right_ = left_ == 0 ? 1 : 0;
 }
 
 double Console::level(ConsoleCommand held) const {
@@ -48,9 +48,15 @@ double Console::level(ConsoleCommand held) const {
   return most;
 }
 
-void Console::restart(const SessionInputs& inputs, const CArmInputs& asked) {
+void Console::restart(const SessionInputs& inputs, const CArmInputs& asked,
+                      const std::vector<std::uint64_t>& moved_at) {
   arm_ = inputs.c_arm, asked_ = asked, arm_is_set_ = true;
   gauge_Pa_ = inputs.delivery.gauge_Pa;
+  picture_.review = picture_.review_frame = 0;
+  right_ = first_right_;
+  std::uint64_t last = 0;
+  for (std::size_t t = 0; t < moved_at.size(); ++t)
+    if (static_cast<int>(t) != left_ && moved_at[t] > last) right_ = static_cast<int>(t), last = moved_at[t];
   emergency_.restart(inputs.delivery);
 }
 
@@ -180,7 +186,10 @@ void Console::give(const SessionModel& model, Hands hands, DeliveryInputs& to) {
   }
   if (to.injection_m3_s == 0 && to.aspiration_m3_s == 0)
     to.aspiration_m3_s = level(ConsoleCommand::aspirate) * hand_aspiration_m3_s;
-  if (to.gauge_Pa == 0) to.gauge_Pa = level(ConsoleCommand::vacuum) > 0.5 ? -0.9 * atm : gauge_Pa_;
+  // A plunger that was drawn back stays where there is no pressure; it does not fill the balloon again.
+  const bool drawn_back = level(ConsoleCommand::vacuum) > 0.5;
+  if (drawn_back) gauge_Pa_ = 0;
+  if (to.gauge_Pa == 0) to.gauge_Pa = drawn_back ? -0.9 * atm : gauge_Pa_;
 }
 
 void Console::fill(const SessionModel& model, Hands hands, SessionInputs& inputs) {

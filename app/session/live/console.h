@@ -30,8 +30,9 @@ class Console {
   void take(const SessionModel& model, const ConsoleOrder& order, Hands hands);
   /// `inputs`: what script or box ask for; becomes what is done.
   void fill(const SessionModel& model, Hands hands, SessionInputs& inputs);
-  /// The run has gone back: pose and pressure of that moment, and the pose that the script asks for.
-  void restart(const SessionInputs& inputs, const CArmInputs& asked);
+  /// The run has gone back: pose and pressure of that moment, the pose that the script asks for, and in the right hand
+  /// the tool that was moved last (`moved_at`: when each was).
+  void restart(const SessionInputs& inputs, const CArmInputs& asked, const std::vector<std::uint64_t>& moved_at);
 
   std::array<Controls, seats> controls;
   const CArmInputs& arm() const { return arm_; }
@@ -49,11 +50,12 @@ class Console {
   void move_tools(SessionInputs& inputs) const;
   void give(const SessionModel& model, Hands hands, DeliveryInputs& to);
 
-  int left_ = 0, right_ = -1;
+  int left_ = 0, right_ = -1, first_right_ = -1;
   CArmInputs arm_, asked_;  ///< pose as it is, and as script or box asked for it last
   bool arm_is_set_ = false;
   Emergency emergency_;
-  double gauge_Pa_ = 0, heparin_U_ = 0, nitrate_ug_ = 0, adenosine_ug_ = 0;
+  double gauge_Pa_ = 0,  ///< as it is left; while the plunger is drawn back there is a vacuum
+      heparin_U_ = 0, nitrate_ug_ = 0, adenosine_ug_ = 0;
   PictureSettings picture_;
 };
 

@@ -104,7 +104,7 @@ void LiveDriver::restart(const ScriptedRun& run) {
   CArmInputs asked;
   asked.lao_rad = script.lao_rad, asked.cran_rad = script.cran_rad, asked.field_m = script.field_m;
   asked.p_PI = script.p_PI;
-  console_.restart(run.inputs, asked);
+  console_.restart(run.inputs, asked, run.moved_at);
   std::fill(ecg_.begin(), ecg_.end(), std::numeric_limits<float>::quiet_NaN());
   line_ = ecg_;
   refused_ = -1, refused_at_ = run.state.rods.step;

@@ -40,7 +40,8 @@ bool LivePicture::look(const Snapshot& now, bool fresh) {
   const bool other = !shows_the_same(settings_, now.picture);
   // A run that goes back has not been exposed since: the image held, and its dose, are of a time that is given up.
   const bool gone_back = fresh && now.begun != begun_;
-  if (gone_back) begun_ = now.begun, picture_ = {}, due_ = -1;
+  second_ = seconds(model_, now.state);
+  if (gone_back) begun_ = now.begun, forget_after(second_);
   bool is_new = false;
   if (own_) {
     if (!fresh) return false;
@@ -67,7 +68,7 @@ void LivePicture::take(const fluoro::Picture& picture, const fluoro::DoseMeter& 
   if (xray_on || !has_pedals_ || !picture_.grey.empty()) picture_ = picture;
   store(picture_, cine);
   xray_on_ = xray_on || !has_pedals_, dose_ = dose, cine_ = cine;
-  reference_.take(picture_, cine, seen);
+  reference_.take(picture_, cine, seen, second_);
 }
 
 void LivePicture::store(const fluoro::Picture& picture, bool cine) {
@@ -76,14 +77,21 @@ void LivePicture::store(const fluoro::Picture& picture, bool cine) {
     runs_.emplace_front();
     if (runs_.size() > stored_runs) runs_.pop_back();
   }
-  if (runs_.front().size() < stored_frames) runs_.front().push_back(picture);
+  runs_.front().last_s = second_;
+  if (runs_.front().frames.size() < stored_frames) runs_.front().frames.push_back(picture);
+}
+
+void LivePicture::forget_after(double second) {
+  picture_ = {}, due_ = -1, cine_ = false;
+  std::erase_if(runs_, [&](const StoredRun& run) { return run.last_s > second; });
+  reference_.forget_after(second);
 }
 
 void LivePicture::show(const PictureSettings& settings) {
   settings_ = settings;
   shown_ = picture_, review_frame_ = review_frames_ = 0;
   if (const int run = settings.review; run > 0 && run <= static_cast<int>(runs_.size())) {
-    const std::vector<fluoro::Picture>& frames = runs_[static_cast<std::size_t>(run - 1)];
+    const std::vector<fluoro::Picture>& frames = runs_[static_cast<std::size_t>(run - 1)].frames;
     const int count = static_cast<int>(frames.size());
     // From the run's middle on, round and round: there the arteries are full.
     const int at = count ? (((count / 2 + settings.review_frame) % count) + count) % count : 0;
@@ -91,7 +99,7 @@ void LivePicture::show(const PictureSettings& settings) {
   }
   if (settings.references != references_) {
     references_ = settings.references;
-    if (!shown_.grey.empty()) reference_.freeze(shown_);
+    if (!shown_.grey.empty()) reference_.freeze(shown_, second_);
   }
   window_greys(settings, shown_);
 }

@@ -37,6 +37,8 @@ class LivePicture {
   void take(const fluoro::Picture& picture, const fluoro::DoseMeter& dose, bool xray_on, bool cine, double seen);
   bool is_due(const Snapshot& now);
   void store(const fluoro::Picture& picture, bool cine);
+  /// The run has gone back to that second: what was taken later is of a time that is given up.
+  void forget_after(double second);
   /// What is shown: the live picture or one of a stored run, in the chosen greys.
   void show(const PictureSettings& settings);
 
@@ -53,7 +55,12 @@ class LivePicture {
   int begun_ = 0;    ///< how often the run had gone back
   double due_ = -1;  ///< frames since the beginning, of the last exposure
   PictureSettings settings_;
-  std::deque<std::vector<fluoro::Picture>> runs_;  ///< the last ones, the newest in front
+  struct StoredRun {
+    std::vector<fluoro::Picture> frames;
+    double last_s = 0;  ///< when the last one was taken
+  };
+  std::deque<StoredRun> runs_;  ///< the last ones, the newest in front
+  double second_ = 0;           ///< of what is shown
   int review_frame_ = 0, review_frames_ = 0;
 };
 

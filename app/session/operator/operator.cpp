@@ -308,7 +308,8 @@ Outcome decide(const ScriptPlan& plan, const SessionModel& model, const SessionS
     else
       end(unless >= 0 ? Outcome::failure : Outcome::timed_out, unless, state);
   }
-  if (report.refused >= 0 && state.outcome == Outcome::running) {
+  // Of a script a tool in the way is the end; people see it, and draw that tool out first.
+  if (report.refused >= 0 && !plan.script.by_hand && state.outcome == Outcome::running) {
     state.in_the_way = report.in_its_way;
     end(Outcome::failure, -1, state);
   }

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "app/session/run/replay.h"
 #include "data/formats/load_error.h"
 
@@ -9,19 +11,21 @@ namespace ostium::app {
 
 namespace {
 
-/// X-ray use until a step, from the recorded inputs.
-XrayUse xrays_until(const data::RecordingReader& recording, SessionInputs inputs, std::size_t steps) {
+/// X-ray use, and when each tool was moved, until a step, from the recorded inputs.
+void count_until(const data::RecordingReader& recording, std::size_t steps, ScriptedRun& run) {
   constexpr std::size_t at_once = 10000;
+  SessionInputs inputs = run.inputs;
   const std::size_t width = core::count_fields(inputs);
-  XrayUse xrays;
+  run.xrays = {};
+  std::ranges::fill(run.moved_at, 0);
   for (std::size_t from = 0; from < steps;) {
     const std::vector<double> rows = recording.inputs(from, std::min(at_once, steps - from));
     for (std::size_t at = 0; at < rows.size(); at += width) {
       take_inputs(rows.data() + at, inputs);
-      xrays.add(inputs.c_arm, ++from, recording.step_s());
+      run.xrays.add(inputs.c_arm, ++from, recording.step_s());
+      note_moved(inputs, from, run.moved_at);
     }
   }
-  return xrays;
 }
 
 }  // namespace
@@ -39,7 +43,7 @@ std::shared_ptr<EventWatch> go_back(ScriptedRun& run, const Continued& to) {
   run.report = {};
   take_recorded_state(recording, run.model, setup_from_json(recording.path(), recording.setup()).seed, before,
                       run.state);
-  run.xrays = xrays_until(recording, run.inputs, before * second);
+  count_until(recording, before * second, run);
   auto watch = std::make_shared<EventWatch>(run.model);
   std::vector<SessionEvent> seen;
   const std::vector<double> rows = recording.inputs(before * second, to.steps - before * second);

@@ -14,6 +14,11 @@ ScriptPlan plan_of(const RunSetup& setup, const SessionModel& model) {
 
 }  // namespace
 
+void note_moved(const SessionInputs& inputs, std::uint64_t step, std::vector<std::uint64_t>& moved_at) {
+  for (std::size_t t = 0; t < inputs.tools.size(); ++t)
+    if (inputs.tools[t].feed_m_s != 0 || inputs.tools[t].turn_rad_s != 0) moved_at[t] = step;
+}
+
 ScriptedRun::ScriptedRun(const RunSetup& setup, std::shared_ptr<const Vessel> vessel, Driver* driver)
     : model(make_session(setup, std::move(vessel))),
       plan(plan_of(setup, model)),
@@ -24,7 +29,7 @@ ScriptedRun::ScriptedRun(const RunSetup& setup, std::shared_ptr<const Vessel> ve
   if (setup.rate_1_min) hands.rate_1_min = *setup.rate_1_min;
   for (std::size_t t = 0; t < model.tools.size(); ++t)
     if (model.tools[t].name == setup.stuck) stuck_ = static_cast<int>(t);
-  inputs.tools.resize(model.tools.size());
+  inputs.tools.resize(model.tools.size()), moved_at.resize(model.tools.size());
   events.reserve(64);
 }
 
@@ -59,6 +64,7 @@ void ScriptedRun::repeat(const SessionInputs& recorded) {
 void ScriptedRun::advance() {
   step(model, inputs, state, scratch_, report);
   xrays.add(inputs.c_arm, state.rods.step, model.step_s());
+  note_moved(inputs, state.rods.step, moved_at);
   const std::uint32_t trouble = report.rods.trouble & ~static_cast<std::uint32_t>(core::feed_stopped);
   if (trouble) ++troubled, troubles |= trouble;
 }

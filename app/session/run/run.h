@@ -1,5 +1,8 @@
 #pragma once
 /// One run of a script, step by step.
+#include <cstdint>
+#include <vector>
+
 #include "app/session/operator/setup.h"
 #include "app/session/scene/dose.h"
 
@@ -24,6 +27,9 @@ class Driver {
   virtual bool holds_script() const { return false; }
 };
 
+/// Notes in `moved_at` which tools these inputs move in a step, counted from 1.
+void note_moved(const SessionInputs& inputs, std::uint64_t step, std::vector<std::uint64_t>& moved_at);
+
 class ScriptedRun {
  public:
   /// Throws LoadError, with the script's line if the script is at fault. `driver` must outlive this; null: the script
@@ -46,11 +52,12 @@ class ScriptedRun {
   SessionReport report;
   std::vector<OperatorEvent> events;  ///< of the last tick
   Outcome outcome = Outcome::running;
-  long troubled = 0;           ///< steps with trouble flags, other than at an instrument's end
-  std::uint32_t troubles = 0;  ///< their Trouble bits
-  XrayUse xrays;               ///< so far, whether drawn or not
-  bool stood = false;          ///< the driver made it stand still before the last step
-  long overruns = 0;           ///< steps that began over 1 ms late; counted by the pacing loop
+  long troubled = 0;                    ///< steps with trouble flags, other than at an instrument's end
+  std::uint32_t troubles = 0;           ///< their Trouble bits
+  XrayUse xrays;                        ///< so far, whether drawn or not
+  std::vector<std::uint64_t> moved_at;  ///< of each tool: the last step in which it was fed or turned; 0: none
+  bool stood = false;                   ///< the driver made it stand still before the last step
+  long overruns = 0;                    ///< steps that began over 1 ms late; counted by the pacing loop
 
  private:
   SessionScratch scratch_;

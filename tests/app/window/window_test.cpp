@@ -202,19 +202,26 @@ TEST(Panel, TheReferenceIsTheFullestOfTheLastCineUntilSomebodyChooses) {
     return p;
   };
   const auto shown = [&] { return reference.picture() ? reference.picture()->grey[0] : -1; };
-  reference.take(shade(1), false, 0.9);
+  reference.take(shade(1), false, 0.9, 1);
   EXPECT_EQ(shown(), -1) << "fluoroscopy";
-  for (const int k : {10, 11, 12, 13}) reference.take(shade(k), true, k == 12 ? 0.8 : 0.2);
+  for (const int k : {10, 11, 12, 13}) reference.take(shade(k), true, k == 12 ? 0.8 : 0.2, k);
   EXPECT_EQ(shown(), -1) << "it goes on";
-  reference.take(shade(2), false, 0);
+  reference.take(shade(2), false, 0, 14);
   EXPECT_EQ(shown(), 12);
-  reference.take(shade(20), true, NAN), reference.take(shade(21), true, 0.1), reference.take(shade(2), false, 0);
+  reference.take(shade(20), true, NAN, 20), reference.take(shade(21), true, 0.1, 21),
+      reference.take(shade(2), false, 0, 22);
   EXPECT_EQ(shown(), 12) << "a run in which no contrast could be seen";
-  reference.take(shade(30), true, 0.2), reference.take(shade(2), false, 0);
+  reference.take(shade(30), true, 0.2, 30), reference.take(shade(2), false, 0, 31);
   EXPECT_EQ(shown(), 30) << "the last run, however full the one before";
-  reference.freeze(shade(40));
-  reference.take(shade(50), true, 0.9), reference.take(shade(2), false, 0);
+  reference.freeze(shade(40), 40);
+  reference.take(shade(50), true, 0.9, 50), reference.take(shade(2), false, 0, 51);
   EXPECT_EQ(shown(), 40);
+  reference.forget_after(45);
+  EXPECT_EQ(shown(), 40) << "of before";
+  reference.forget_after(35);
+  EXPECT_EQ(shown(), -1) << "of a time that is given up";
+  reference.take(shade(60), true, 0.9, 36), reference.take(shade(2), false, 0, 37);
+  EXPECT_EQ(shown(), 60);
 }
 
 /// Any picture of a film that nobody exposes is black or the one before.
@@ -249,6 +256,34 @@ TEST(LivePicture, FollowsThePedalsWhoeverPressesThem) {
     live.look(p.hand.snapshots(Seat::window).front(), true);
     EXPECT_TRUE(live.picture().grey.empty()) << "the run has gone back: that image is of a time given up";
   }
+}
+
+TEST(LivePicture, AStoredCineOfATimeThatIsGivenUpIsGone) {
+  Played p;
+  LivePicture live(p.run.model, {.filmed = nullptr, .has_pedals = true, .pixels = 64});
+  const auto look = [&] {
+    ASSERT_TRUE(p.hand.snapshots(Seat::window).update());
+    live.look(p.hand.snapshots(Seat::window).front(), true);
+  };
+  const auto film = [&](bool down) {
+    p.keys.set(ConsoleCommand::cine, down);
+    p.steps(70), look();
+  };
+  film(true), film(false);
+  p.keys.order(ConsoleCommand::review, 1);
+  p.steps(70), look();
+  EXPECT_EQ(live.review_frames(), 1);
+  const SessionState then = p.run.state;
+  film(true), film(true), film(false);
+  EXPECT_EQ(live.review_frames(), 2);
+  p.run.state = then;
+  p.hand.restart(p.run);
+  look();
+  EXPECT_EQ(live.review_frames(), 0) << "live again";
+  p.keys.order(ConsoleCommand::review, 1);
+  p.keys.order(ConsoleCommand::pause);
+  p.steps(70), look();
+  EXPECT_EQ(live.review_frames(), 1) << "of the film before";
 }
 
 TEST(Panel, ShowsPictureToolsAndWhatIsWrong) {

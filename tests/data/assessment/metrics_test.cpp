@@ -234,6 +234,8 @@ TEST(Metrics, NamesAreSnakeCaseWithTheirUnitLast) {
 TEST(Metrics, ForPeopleTheyHaveTheirUnitOrSayNever) {
   EXPECT_EQ(value_text({"wall_force_max_N", 2.5071, "N"}), "2.507 N");
   EXPECT_EQ(value_text({"cine_runs", 3, "1"}), "3");
+  EXPECT_EQ(value_text({"cine_time_s", 12.34, "s"}), "12.3 s");
+  EXPECT_EQ(value_text({"cannulation_time_s", 412.7, "s"}), "6:52") << "as the clock of the run writes it";
   EXPECT_EQ(value_text({"perforation_to_covered_stent_s", never_s, "s"}), "never");
   EXPECT_EQ(value_text({"ascent_time_s", NAN, "s"}), "");
 }
