@@ -120,39 +120,46 @@ double radius_at(const BalloonModel& m, const BalloonState& s, double s_m) {
 
 namespace {
 
-/// The wall round a sphere, interpolated between two cells of the path. `held_m`: radius to which a stent holds it.
-CircleAside wall_round(const PlaqueModel& plaque, const PlaqueState& wall, const VesselPath& path, double s_m, double a,
-                       double aside_m, double held_m) {
+/// The wall between two cells of the path, interpolated.
+WallPressure wall_at(const PlaqueModel& plaque, const PlaqueState& wall, const VesselPath& path, double s_m, double a) {
+  const VesselPath::Place at = path.at(s_m);
+  const WallPressure one = wall_pressure(plaque, wall, path.cells[at.index], a);
+  if (at.share == 0) return one;
+  const WallPressure two = wall_pressure(plaque, wall, path.cells[at.index + 1], a);
+  return {(1 - at.share) * one.p_Pa + at.share * two.p_Pa, (1 - at.share) * one.slope_Pa_m + at.share * two.slope_Pa_m};
+}
+
+/// What pushes a sphere back to the middle, in the same way. `held_m`: radius to which a stent holds the wall.
+CircleAside push_back(const PlaqueModel& plaque, const PlaqueState& wall, const VesselPath& path, double s_m, double a,
+                      double aside_m, double held_m) {
   const VesselPath::Place at = path.at(s_m);
   const auto press = [&](int index) {
     const int cell = path.cells[index];
-    if (a + aside_m <= wall.rest_m[cell]) return CircleAside{};
+    if (a + aside_m <= std::max(held_m, wall.rest_m[cell])) return CircleAside{};
     const WallLaw law = wall_law(plaque, wall, cell);
-    return aside_m > 0 ? press_circle(law, std::max(held_m, law.rest_m), a, aside_m) : CircleAside{law.at(a)};
+    return press_circle(law, std::max(held_m, law.rest_m), a, aside_m);
   };
-  const CircleAside one = press(at.index);
-  if (at.share == 0) return one;
-  const CircleAside two = press(at.index + 1);
-  const auto mix = [&](double of_one, double of_two) { return (1 - at.share) * of_one + at.share * of_two; };
-  return {{mix(one.mean.p_Pa, two.mean.p_Pa), mix(one.mean.slope_Pa_m, two.mean.slope_Pa_m)},
-          mix(one.back_N_m, two.back_N_m),
-          mix(one.back_N_m2, two.back_N_m2)};
+  const CircleAside one = press(at.index), two = at.share > 0 ? press(at.index + 1) : one;
+  return {(1 - at.share) * one.back_N_m + at.share * two.back_N_m,
+          (1 - at.share) * one.back_N_m2 + at.share * two.back_N_m2};
 }
 
-/// The wall's pressure on a sphere in the artery, to which it `meets`; keeps what pushes it back to the middle.
+/// The wall's pressure on a sphere in the artery, to which it `meets`; keeps what pushes it back to the middle. A
+/// sphere aside presses all round as if it were in the middle: that of one side alone the shaft's own contact bears.
 WallPressure meet_wall(const PlaqueModel& plaque, const PlaqueState& wall, const BalloonInputs& in, double at_m,
                        const BalloonState& s, int i, double meets, BalloonScratch& x) {
   const bool sleeved = !in.sleeve.covers.empty() && in.sleeve.covers[i] > 0;
-  const double outer = s.radius_m[i] + (sleeved ? in.sleeve.thickness_m : 0), aside_m = s.aside_m[i].norm();
-  // A sleeve opens in the middle; what is in it may lie aside.
-  const CircleAside round = wall_round(plaque, wall, *in.path, at_m, outer, sleeved ? 0 : aside_m, 0);
-  const CircleAside back = sleeved && aside_m > 0 ? wall_round(plaque, wall, *in.path, at_m, outer, aside_m,
-                                                               in.sleeve.inner_m[i] + in.sleeve.thickness_m)
-                                                  : round;
-  x.back_N_m[i] = back.back_N_m, x.back_N_m2[i] = back.back_N_m2;
+  const double outer = s.radius_m[i] + (sleeved ? in.sleeve.thickness_m : 0);
+  const bool in_artery = at_m >= in.path->s_m.front() && at_m <= in.path->s_m.back();
+  if (const double aside_m = s.aside_m[i].norm(); aside_m > 0 && in_artery) {
+    const double held_m = sleeved ? in.sleeve.inner_m[i] + in.sleeve.thickness_m : 0;
+    const CircleAside back = push_back(plaque, wall, *in.path, at_m, outer, aside_m, held_m);
+    x.back_N_m[i] = back.back_N_m, x.back_N_m2[i] = back.back_N_m2;
+  }
   if (meets == 0) return {};
-  WallPressure w{meets * round.mean.p_Pa, meets * round.mean.slope_Pa_m};
-  if (meets < 1) w.slope_Pa_m += (round.mean.p_Pa + in.sleeve.p_Pa[i]) / soft_m;
+  const WallPressure round = wall_at(plaque, wall, *in.path, at_m, outer);
+  WallPressure w{meets * round.p_Pa, meets * round.slope_Pa_m};
+  if (meets < 1) w.slope_Pa_m += (round.p_Pa + in.sleeve.p_Pa[i]) / soft_m;
   return w;
 }
 

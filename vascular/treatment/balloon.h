@@ -6,8 +6,7 @@
 ///   c da/dt = p - p_skin(a) - p_stent(a) - p_wall(a) + N a'',   N = p a / 2 (tension along the skin)
 /// The compliance chart is linear above the unfolding pressure: D = nominal + growth (p - nominal pressure); below it
 /// the balloon is folded. It fills through the shaft, R dV/dt = p_gauge - p, so that p lags and the balloon empties
-/// within seconds under vacuum, and hardly without it, since then only the folds expel the fluid. Where its body lies
-/// aside of the artery's middle line, p_wall is the mean round it (balloon_body.h).
+/// within seconds under vacuum, and hardly without it, since then only the folds expel the fluid.
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
@@ -53,8 +52,9 @@ struct BalloonState {
   double seat_m = 0;                     ///< middle of its markers along the path
   bool held = false;                     ///< pressed by the wall, which keeps it there; else it goes with its shaft
   std::vector<Eigen::Vector2d> aside_m;  ///< (balloon_spheres) from the artery's middle line, along side and up
-  /// To where its proximal and distal bond pull the shaft, in the same way, with BalloonDesign::bond_N_m.
+  /// To where its proximal and distal bond pull the shaft, in the same way, and how stiffly: as bond and wall are.
   std::array<Eigen::Vector2d, 2> bonds_m = {Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()};
+  std::array<double, 2> bonds_N_m{};
   double largest_m = 0;   ///< largest radius so far
   double inflated_s = 0;  ///< time above 1 atm in this inflation
 };
@@ -69,6 +69,7 @@ constexpr auto fields(const BalloonState*) {
                     core::field("held", &S::held),
                     core::field("aside_m", &S::aside_m),
                     core::field("bonds_m", &S::bonds_m),
+                    core::field("bonds_N_m", &S::bonds_N_m),
                     core::field("largest_m", &S::largest_m),
                     core::field("inflated_s", &S::inflated_s)};
 }

@@ -68,7 +68,6 @@ CircleAside press_circle(const WallLaw& wall, double from_m, double a, double y)
   for (std::size_t k = 0; k < gauss_at.size(); ++k) {
     const double c = std::cos(to * gauss_at[k]), share = gauss_weight[k] * to / pi;
     const WallPressure p = wall.at(a + y * c);
-    out.mean.p_Pa += share * p.p_Pa, out.mean.slope_Pa_m += share * p.slope_Pa_m;
     out.back_N_m += share * 2 * pi * a * (p.p_Pa - elsewhere_Pa) * c;
     out.back_N_m2 += share * 2 * pi * a * p.slope_Pa_m * c * c;
   }
@@ -103,11 +102,19 @@ void lie_aside(const BalloonModel& m, const ShaftPlace& shaft, double dt, Balloo
   }
   solve_banded(x);
   std::copy(x.load.begin(), x.load.end(), s.aside_m.begin());
-  // The shaft bears at its bonds what the body presses it with.
-  s.bonds_m = {shaft.aside_m.front(), shaft.aside_m.back()};
+  // The shaft bears at its bonds what the body presses it with; where no wall bears the body, it presses on nothing.
+  std::array<Vector2d, 2> force_N = {Vector2d::Zero(), Vector2d::Zero()};
+  std::array<double, 2> wall_N_m{};
   for (int i = 0; i < balloon_spheres; ++i) {
+    const std::size_t end = i < balloon_spheres / 2 ? 0 : 1;
     const ShaftSpring spring = shaft_spring(m, shaft, s, i);
-    s.bonds_m[i < balloon_spheres / 2 ? 0 : 1] += ds / m.bond_N_m * spring.N_m2 * (s.aside_m[i] - spring.to_m);
+    force_N[end] += ds * spring.N_m2 * (s.aside_m[i] - spring.to_m);
+    wall_N_m[end] += ds * x.back_N_m2[i];
+  }
+  for (std::size_t end : {0u, 1u}) {
+    s.bonds_m[end] = shaft.aside_m[end == 0 ? 0 : balloon_spheres - 1];
+    s.bonds_N_m[end] = wall_N_m[end] > 0 ? 1 / (1 / m.bond_N_m + 1 / wall_N_m[end]) : 0;
+    if (s.bonds_N_m[end] > 0) s.bonds_m[end] += force_N[end] / s.bonds_N_m[end];
   }
 }
 
@@ -115,11 +122,13 @@ void slide(const BalloonModel& m, const ShaftPlace& shaft, double along_N, doubl
            BalloonState& s) {
   s.held = pressed_N > 0;
   if (!s.held) return;
-  const double bond = 1 / (1 / m.bond_N_m + 1 / shaft.holds_N_m), reach_m = most_N / bond;
-  const double wanted = along_N + bond * (shaft.middle_m - s.seat_m), holds = m.friction * pressed_N;
+  const double bond = 1 / (1 / m.bond_N_m + 1 / shaft.holds_N_m), holds = m.friction * pressed_N;
+  // Its shaft drags it as fast as it moves, the wall pushes it slowly.
+  const double reach_m = std::min(holds, most_N) / bond;
+  s.seat_m = std::clamp(s.seat_m, shaft.middle_m - reach_m, shaft.middle_m + reach_m);
+  const double wanted = along_N + bond * (shaft.middle_m - s.seat_m);
   if (const double over = std::fabs(wanted) - holds; over > 0)
     s.seat_m += std::copysign(over, wanted) * dt / (m.slide_N_s_m + bond * dt);
-  s.seat_m = std::clamp(s.seat_m, shaft.middle_m - reach_m, shaft.middle_m + reach_m);
 }
 
 }  // namespace ostium::vascular

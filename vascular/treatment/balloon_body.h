@@ -14,7 +14,6 @@ namespace ostium::vascular {
 
 /// A wall's answer to a circle of radius a whose middle lies aside of its own by y.
 struct CircleAside {
-  WallPressure mean;     ///< round the circle, and its slope by a
   double back_N_m = 0;   ///< W, towards the wall's middle
   double back_N_m2 = 0;  ///< its slope by y
 };

@@ -14,7 +14,7 @@ struct BalloonDesign {
   double viscous_Pa_s_m = 3e8;    ///< c [estimate: a waist gives way in about half a second]
   double friction = 0.12;         ///< against the wall [estimate]
   double bond_N_m = 1000;         ///< stiffness with which its bonds hold the body on the shaft [estimate]
-  double slide_N_s_m = 20;        ///< damping of what slides along the wall [estimate]
+  double slide_N_s_m = 200;       ///< damping of what its wall pushes along [estimate]
 };
 
 }  // namespace ostium::vascular

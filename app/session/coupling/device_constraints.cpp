@@ -38,7 +38,7 @@ std::array<core::Tether, core::max_tethers> tethers_on_shaft(const CouplingModel
     const vascular::PathFrame frame = place_of(model, s, sphere_position(own, body, sphere), moment);
     const Eigen::Vector2d& aside_m = body.bonds_m[which];
     return core::Tether{from_tip_m, frame.centre + aside_m.x() * frame.side + aside_m.y() * frame.up, frame.along, 0,
-                        own.bond_N_m};
+                        body.bonds_N_m[which]};
   };
   // Along, both bonds act as one: round a bend their distance on the shaft is not quite that on the path.
   const vascular::PathFrame middle = place_of(model, s, body.seat_m, moment);

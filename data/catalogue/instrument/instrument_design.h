@@ -65,6 +65,7 @@ inline const std::vector<DesignNumber<vascular::BalloonDesign>> balloon_design_n
     {"friction", &vascular::BalloonDesign::friction, 1, 0, 2, "friction against the wall"},
     {"bond_N_m", &vascular::BalloonDesign::bond_N_m, 1, 1, 1e5,
      "the stiffness in N/m with which its bonds hold it on its shaft"},
-    {"slide_N_s_m", &vascular::BalloonDesign::slide_N_s_m, 1, 1, 1e6, "the damping in N s/m with which it slides"}};
+    {"slide_N_s_m", &vascular::BalloonDesign::slide_N_s_m, 1, 1, 1e6,
+     "the damping in N s/m of what its wall pushes along"}};
 
 }  // namespace ostium::data
