@@ -7,6 +7,7 @@
 /// where u is the artery's curvature, EI that of the tube with its wrinkles (pressurised_tube.h), S the springs of the
 /// bonds, and of the shaft where it presses on the skin from inside; W the wall's law round the circle that lies aside:
 ///   W = integral of p(a + y cos f) cos f a df
+/// Its radius answers as if it lay in the middle: a side that alone touches is borne by the shaft's own contact.
 /// Along: friction by Coulomb holds it against the wall's cone and the pull of its shaft.
 #include "vascular/treatment/balloon.h"
 
