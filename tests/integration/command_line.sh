@@ -301,7 +301,7 @@ expect 0 "bit for bit" "$ostium" replay "$out/int/run.h5"
 expect 3 "another ostium writes there" bash -c "'$ostium' run rca-mid-focal --speed real --record none --out '$out/two' & p=\$!
   trap 'kill -TERM \$p; wait \$p' EXIT; while [[ ! -e '$out/two' ]]; do sleep 0.05; done; sleep 0.3
   '$ostium' run rca-mid-focal --seconds 0.1 --out '$out/two'"
-expect 1 "is the disk full" bash -c "ulimit -f 50; trap '' XFSZ; '$ostium' run rca-mid-focal --script iliac-wire --out '$out/full'"
+expect 1 "is the disk full" bash -c "ulimit -f 80; trap '' XFSZ; '$ostium' run rca-mid-focal --script iliac-wire --out '$out/full'"
 expect 0 "bit for bit" "$ostium" replay "$out/full/run.h5"
 expect 3 "there is no case" "$ostium" run no-such-case
 expect 3 "there is no script" "$ostium" run rca-mid-focal --script no-such-script
