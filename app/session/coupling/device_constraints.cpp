@@ -34,17 +34,10 @@ std::array<core::Tether, core::max_tethers> tethers_on_shaft(const CouplingModel
   const vascular::BalloonModel& own = model.treatment.balloons[static_cast<std::size_t>(s.balloon)];
   const data::Instrument& instrument = model.tools[t].instrument;
   const double far_m = marker_from_tip_m(instrument, 1), near_m = marker_from_tip_m(instrument, 0);
-  const auto bond = [&](std::size_t which, int sphere, double from_tip_m) {
-    const vascular::PathFrame frame = place_of(model, s, sphere_position(own, body, sphere), moment);
-    const Eigen::Vector2d& aside_m = body.bonds_m[which];
-    return core::Tether{from_tip_m, frame.centre + aside_m.x() * frame.side + aside_m.y() * frame.up, frame.along, 0,
-                        body.bonds_N_m[which]};
-  };
-  // Along, both bonds act as one: round a bend their distance on the shaft is not quite that on the path.
+  // Aside, the shaft is not pulled: contact's wall lags the lumen that the balloon opens, and what pulls a shaft
+  // towards the one presses it into the other.
   const vascular::PathFrame middle = place_of(model, s, body.seat_m, moment);
-  return {core::Tether{(near_m + far_m) / 2, middle.centre, middle.along, own.bond_N_m, 0},
-          bond(0, 0, near_m + own.shoulder_m),
-          bond(1, vascular::balloon_spheres - 1, std::max(0.0, far_m - own.shoulder_m))};
+  return {core::Tether{(near_m + far_m) / 2, middle.centre, middle.along, own.bond_N_m, 0}};
 }
 
 core::StretchLoad load_on_shaft(const CouplingModel& model, const core::State& rods, const CouplingState& s, int tool) {

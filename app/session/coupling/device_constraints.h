@@ -5,7 +5,7 @@
 
 namespace ostium::app {
 
-/// Springs from an open balloon that the wall holds to its shaft, in the step that ends at `moment`.
+/// What an open balloon that the wall holds does to its shaft, along the artery, in the step that ends at `moment`.
 std::array<core::Tether, core::max_tethers> tethers_on_shaft(const CouplingModel& model,
                                                              const vascular::TreatmentState& treatment,
                                                              const CouplingState& state, int tool,
