@@ -33,7 +33,7 @@ struct Tether {
   double along_N_m = 0, across_N_m = 0;                ///< stiffness; 0: none
 };
 
-inline constexpr int max_tethers = 3;  ///< of a rod: a balloon's two bonds across, and both along
+inline constexpr int max_tethers = 3;  ///< of a rod
 
 struct RodInputs {
   /// Speed at which the rod is pushed in at the introducer (the base's pose); negative: pulled back. Only a clamped

@@ -53,6 +53,7 @@ struct BalloonState {
   bool held = false;                     ///< pressed by the wall, which keeps it there; else it goes with its shaft
   std::vector<Eigen::Vector2d> aside_m;  ///< (balloon_spheres) from the artery's middle line, along side and up
   /// To where its proximal and distal bond pull the shaft, in the same way, and how stiffly: as bond and wall are.
+  /// Sessions do not use it yet (device_constraints.cpp says why).
   std::array<Eigen::Vector2d, 2> bonds_m = {Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()};
   std::array<double, 2> bonds_N_m{};
   double largest_m = 0;   ///< largest radius so far
