@@ -8,12 +8,11 @@
 #include "core/contact/contact.h"
 #include "core/contact/narrow_phase.h"
 #include "core/contact/sleep.h"
+#include "core/nesting/nest.h"
 
 namespace ostium::core {
 
 namespace {
-
-constexpr double longest_block_m = 16e-3;
 
 /// Recomputes a plane from `to`, with the wall as it is at the end of the step. False if another plane already stands
 /// for it there.
@@ -42,16 +41,6 @@ bool is_in_the_way(const Model& model, const Strand& strand, int i, const V3<dou
   return true;
 }
 
-/// Neighbours share a query while they are not far apart: long boxes meet many walls.
-int end_of_block(const Rod& rod, int begin, int last) {
-  int end = begin + 1;
-  for (double length_m = 0; end < last && end - begin < NodeBlock::most; ++end) {
-    length_m += rod.length.at(0)[end - 1];
-    if (length_m > longest_block_m) break;
-  }
-  return end;
-}
-
 }  // namespace
 
 void move_walls(const Model& model, const Inputs& inputs, double from, double to, Scratch& scratch) {
@@ -64,17 +53,23 @@ void move_walls(const Model& model, const Inputs& inputs, double from, double to
 
 namespace {
 
-/// A block of a strand's nodes that looks for walls.
+/// A block of a strand's nodes that looks for walls, or the part of it that is there.
 struct Lookout {
-  int begin, end;  ///< nodes of the strand
+  int begin, end;      ///< nodes of the strand
+  KeptLeaves* leaves;  ///< of each surface
   NodeBlock nodes;
   NodeView views[NodeBlock::most];
   Bounds bounds;  ///< of all that they may meet
 
-  Lookout(const Model& model, const Strand& strand, int first) : begin(first) {
+  Lookout(const Model& model, const Strand& strand, int first, Scratch& scratch) : begin(first), end(first + 1) {
     const RodScratch& s = *strand.s;
     const Rod& rod = s.inside;
-    end = end_of_block(rod, begin, last_free(s) + 1);
+    const NodeOfRod own = node_of_rod(strand, begin);
+    Lookouts& all = scratch.lookouts[own.rod];
+    const int block = all.block[own.node];
+    leaves = &all.leaves[model.surfaces.size() * static_cast<std::size_t>(block)];
+    for (; end <= last_free(s); ++end)
+      if (const NodeOfRod next = node_of_rod(strand, end); next.rod != own.rod || all.block[next.node] != block) break;
     for (int i = begin; i < end; ++i) {
       const V3<double> p = load3<double>(strand.own->position, i), expected = load3<double>(s.position, i);
       store3(strand.contact->expected, i, expected);
@@ -132,14 +127,13 @@ void find_walls(const Model& model, const Strand& strand, Scratch& scratch) {
   RodScratch& s = *strand.s;
   ContactScratch& c = *strand.contact;
   for (int i = s.inside.first; i < s.inside.nodes(); ++i) c.walls[i].count = 0;
-  std::size_t lists = 0;
   for (int begin = first_free(s); begin <= last_free(s);) {
-    const Lookout from(model, strand, begin);
+    const Lookout from(model, strand, begin, scratch);
     const auto& [low, high] = from.bounds;
     for (int k = 0; k < static_cast<int>(model.surfaces.size()); ++k) {
       const Surface& surface = *model.surfaces[static_cast<std::size_t>(k)];
       SurfacePose& whole = scratch.surfaces[static_cast<std::size_t>(k)];
-      KeptLeaves& kept = c.leaves[lists++];
+      KeptLeaves& kept = from.leaves[k];
       if (renew(surface, low, high, whole, kept.list)) {
         look_at_kept(model, from, k, whole, kept, c.walls.data());
         continue;

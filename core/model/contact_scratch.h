@@ -57,24 +57,39 @@ inline constexpr int most_in_block = 8;  ///< nodes that share a query for walls
 /// Leaves of a surface's tree near a block of nodes, kept from step to step; most of them sleep (core/contact/sleep.h).
 struct KeptLeaves {
   struct Sleep {
-    float speed_m = 0;     ///< per frame of the cycle, relative to the reference: at most
+    int node = 0;          ///< of the tree
+    float speed_m = 0;     ///< per frame of the cycle, relative to the reference: any corner, at most
+    float nears_m = 0;     ///< ... and how much nearer it may seem to come to a node within one step
     float wakes_at_m = 0;  ///< way at which a node may meet it
   };
   LeafList list;
-  std::vector<Sleep> sleep;  ///< of each leaf
-  long made = -1;            ///< LeafList::made for which they were set
-  int reference = 0;         ///< node of the tree: the middle of its box moves as the walls here do, about
-  double sway_m = 0;         ///< per unit of sway, relative to the reference: any leaf, at most
-  double way_m = 0;          ///< how far the block's nodes have gone relative to the reference: at most
-  double frames = 0;         ///< how far the cycle has gone
-  // --- as of the last step
+  std::vector<Sleep> sleep;   ///< of each leaf
+  std::vector<Sleep> before;  ///< working memory: those of the list before this one
+  long made = -1;             ///< LeafList::made for which they were set, and
+  long edits = 0;             ///< LeafList::edits, and
+  int interval = -1;          ///< LeafList::interval
+  int reference = 0;          ///< node of the tree: the middle of its box moves as the walls here do, about
+  double sway_m = 0;          ///< per unit of sway, relative to the reference: any leaf, at most
+  double way_m = 0;           ///< how far the block's nodes have gone relative to the reference: at most
+  double frames = 0;          ///< how far the cycle has gone
+  // --- as the last step began
   int nodes = 0;
-  V3<double> seen[most_in_block];  ///< m, relative to the reference
-  double reach[most_in_block];     ///< m
-  double share = 0, sway = 0;      ///< of SurfaceMoment
-  double aside_way_m = 0;          ///< of Surface
+  V3<double> seen[most_in_block];    ///< m, relative to the reference
+  double reach[most_in_block];       ///< m
+  int in_interval = 0;               ///< of SurfaceMoment, and
+  double share = 0, sway = 0;        ///< likewise
+  double aside_way_m = 0;            ///< of Surface
+  double to_next_m = 0;              ///< until the next interval began: what any leaf moved, at most
+  Eigen::Vector3d shift_W{0, 0, 0};  ///< of SurfaceMoment
 
-  KeptLeaves() { sleep.reserve(LeafList::most); }
+  KeptLeaves() { sleep.reserve(LeafList::most), before.reserve(LeafList::most); }
+};
+
+/// Blocks of a rod's neighbouring nodes that look for walls together. Blocks lie fixed in the rod, so that what they
+/// keep serves them as the rod moves on.
+struct Lookouts {
+  std::vector<int> block;          ///< (#nodes)
+  std::vector<KeptLeaves> leaves;  ///< [block][surface]
 };
 
 struct ContactScratch {
@@ -104,9 +119,7 @@ struct ContactScratch {
   std::vector<PlaneAhead> planes_ahead;
   // --- other rods
   std::vector<double> rod_shares;  ///< (#nodes): total share of rod contacts
-  // --- queries
-  std::vector<int> clusters;
-  std::vector<KeptLeaves> leaves;  ///< [block of nodes][surface]
+  std::vector<int> clusters;       ///< of queries
 };
 
 }  // namespace ostium::core

@@ -35,7 +35,22 @@ void resize_contact(const Model& model, int elements, ContactScratch& c) {
   for (const auto& surface : model.surfaces) clusters = std::max(clusters, surface->clusters.size());
   c.clusters.reserve(clusters);
   c.planes_ahead.reserve(static_cast<std::size_t>(nodes) * max_planes);
-  c.leaves.resize(model.surfaces.size() * static_cast<std::size_t>(nodes));
+}
+
+/// Neighbours share a query while they are not far apart: long boxes meet many walls.
+Lookouts lookouts_of(const Model& model, const Rod& rod) {
+  constexpr double longest_block_m = 16e-3;
+  Lookouts made;
+  int blocks = 0, in_block = 0;
+  double length_m = 0;
+  for (int i = 0; i < rod.nodes(); ++i) {
+    if (i > 0) length_m += rod.length.at(0)[i - 1];
+    if (i == 0 || in_block == most_in_block || length_m > longest_block_m) ++blocks, in_block = 0, length_m = 0;
+    made.block.push_back(blocks - 1);
+    ++in_block;
+  }
+  made.leaves.resize(model.surfaces.size() * static_cast<std::size_t>(blocks));
+  return made;
 }
 
 void resize_layer(int elements, int own_nodes, Layer& l) {
@@ -114,6 +129,7 @@ Scratch::Scratch(const Model& model) : rods(model.rods.size()), contacts(model.r
     rods[r].inside = rod;
     resize(rods[r], rod.elements, 0, rod.damping.material_time_s > 0);
     resize_contact(model, rod.elements, contacts[r]);
+    if (!model.surfaces.empty()) lookouts.push_back(lookouts_of(model, rod));
     factors.resize(rod.elements);
     resize_nest(model, static_cast<int>(r), nests[r]);
     const BlockTridiagonal& chain = nests[r].s.chain;

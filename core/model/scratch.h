@@ -23,6 +23,7 @@ struct Scratch {
 
   std::vector<RodScratch> rods;             ///< one per rod; used while it is in no nest
   std::vector<ContactScratch> contacts;     ///< one per rod, likewise
+  std::vector<Lookouts> lookouts;           ///< one per rod; none without walls
   std::vector<Nest> nests;                  ///< one per rod, used when it is the outermost of a nest
   std::vector<Strand> strands;              ///< of this step, by outermost rod
   std::vector<int> lead;                    ///< (#rods): the outermost rod of its strand

@@ -116,8 +116,7 @@ bool is_known(const Surface::Cluster& described, const ClusterPose& c, const Sur
 
 }  // namespace
 
-SurfacePose::SurfacePose(const Surface& surface)
-    : clusters(surface.clusters.size()), listed(surface.clusters.size(), -1) {
+SurfacePose::SurfacePose(const Surface& surface) : clusters(surface.clusters.size()) {
   for (std::size_t c = 0; c < clusters.size(); ++c)
     for (Field<3>* corners : {&clusters[c].before, &clusters[c].after}) corners->resize(surface.clusters[c].corners);
 }
@@ -142,6 +141,10 @@ void set_motion(const Surface& surface, const SurfaceMotion& motion, SurfacePose
 namespace {
 
 constexpr double unknown_m = 1;  ///< a bound on what cannot be told cheaply
+
+bool passes_to_next(const Surface& surface, const SurfaceMoment& a, const SurfaceMoment& b) {
+  return b.interval == (a.interval + 1) % surface.frames;
+}
 
 /// A box with x, y, z in the first three places.
 struct Mix {
@@ -203,8 +206,7 @@ RoughPose rough_pose(const Surface& surface, int node, const V3<double>& low, co
   const ClusterPose& known = pose.clusters[cluster];
   if (is_known(surface.clusters[cluster], known, pose)) return {known.low, known.high, known.move};
   const SurfaceMoment &a = pose.before, &b = pose.after;
-  const bool goes_over = b.interval == (a.interval + 1) % surface.frames;
-  if (surface.clusters[cluster].stands_still || (a.interval != b.interval && !goes_over))
+  if (surface.clusters[cluster].stands_still || (a.interval != b.interval && !passes_to_next(surface, a, b)))
     return {low, high, {{}, unknown_m}};
   constexpr double rounding_m = 2e-6;  // of single precision, a metre from the origin
   const FrameBounds *from = surface.bounds_of(cluster, a.interval), *to = surface.bounds_of(cluster, b.interval);
@@ -251,8 +253,9 @@ bool renew(const Surface& surface, const V3<double>& low, const V3<double>& high
            LeafList& list) {
   constexpr double margin_m = 1e-3, rounding_m = 1e-6;
   const SurfaceMoment &a = pose.before, &b = pose.after;
-  if (a.interval != b.interval || a.shift_W != b.shift_W) return false;
-  if (list.interval == a.interval && list.edits == surface.edits && list.shift_W == a.shift_W &&
+  if ((a.interval != b.interval && !passes_to_next(surface, a, b)) || a.shift_W != b.shift_W) return false;
+  if (list.interval == a.interval && list.interval == b.interval && list.edits == surface.edits &&
+      list.shift_W == a.shift_W &&
       lies_within(low, high, list,
                   swayed_m(surface, pose, list) + (surface.aside_way_m - list.aside_way_m) + rounding_m))
     return true;
@@ -263,13 +266,12 @@ bool renew(const Surface& surface, const V3<double>& low, const V3<double>& high
   list.leaves.clear();
   ++list.made;
   bool all = true;
-  const Box* over_interval = &surface.boxes[std::size_t{1} * a.interval * surface.nodes.size()];
-  visit_leaves(surface, a.interval, StepBoxes(surface, pose), BoxQuery(list.low - shift, list.high - shift),
-               [&](int n, const BoxEnds&) {
+  visit_leaves(surface, pose, BoxQuery(list.low - shift, list.high - shift),
+               [&](int n, const Box& over_interval, const BoxEnds&) {
                  all = all && list.leaves.size() < LeafList::most;
-                 if (all) list.leaves.push_back({over_interval[n], n});
+                 if (all) list.leaves.push_back({over_interval, n});
                });
-  list.interval = all ? a.interval : -1;
+  list.interval = all ? b.interval : -1;
   return all;
 }
 
@@ -292,7 +294,7 @@ V3<double> middle_of(const Surface& surface, int node, const SurfaceMoment& m) {
   return surface.yields() ? sum + middle(surface.aside_boxes[node]) : sum;
 }
 
-double relative_speed(const Surface& surface, int interval, int cluster, int other) {
+RelativeSpeed relative_speed(const Surface& surface, int interval, int cluster, int other) {
   const FrameBounds *own = surface.bounds_of(cluster, interval), *its = surface.bounds_of(other, interval);
   V3<double> d[3];  // from frame to frame
   double beside[3];
@@ -302,9 +304,9 @@ double relative_speed(const Surface& surface, int interval, int cluster, int oth
   }
   // The velocity within the interval is a quadratic Bezier curve: it stays within its three points.
   const V3<double> ends = 0.5 * (d[0] + d[2]);
-  return largest(largest(length(0.5 * (d[0] + d[1])) + 0.5 * (beside[0] + beside[1]),
-                         length(0.5 * (d[1] + d[2])) + 0.5 * (beside[1] + beside[2])),
-                 length(2.0 * d[1] - ends) + 2 * beside[1] + 0.5 * (beside[0] + beside[2]));
+  return {largest(largest(length(0.5 * (d[0] + d[1])), length(0.5 * (d[1] + d[2]))), length(2.0 * d[1] - ends)),
+          largest(0.5 * largest(beside[0] + beside[1], beside[1] + beside[2]),
+                  2 * beside[1] + 0.5 * (beside[0] + beside[2]))};
 }
 
 double relative_sway(const Surface& surface, int node, int other_node) {

@@ -57,8 +57,7 @@ struct SurfacePose {
 
   SurfaceMoment before, after;
   std::vector<ClusterPose> clusters;
-  std::vector<long> listed;  ///< per cluster: last query that listed it
-  long step = 0, query = 0, edits = -1;
+  long step = 0, edits = -1;
   double aside_way_m = 0;  ///< of the surface, as `edits` is
   long stands_since = 0;   ///< the step since which parts that stand still in the cycle have not moved
   int posed = 0;           ///< clusters whose pose was computed since this was set to 0
@@ -99,13 +98,13 @@ struct BoxQuery {
 /// Leaves of a surface's tree near a box that is larger than what a query needs, kept for queries of later steps. What
 /// a query finds does not depend on it.
 struct LeafList {
-  static constexpr std::size_t most = 192;
+  static constexpr std::size_t most = 768;
   struct Leaf {
-    Box box;  ///< over the interval
+    Box box;  ///< over the interval; also over the one before it if the list was made as a step passed between them
     int node;
   };
   V3<double> low, high;  ///< the box that was searched; its leaves are all here
-  int interval = -1;     ///< -1: nothing is kept
+  int interval = -1;     ///< in which steps end; -1: nothing is kept
   long edits = 0;
   double aside_way_m = 0, sway_low = 0, sway_high = 0;
   Eigen::Vector3d shift_W = Eigen::Vector3d::Zero();
@@ -145,19 +144,31 @@ class StepBoxes {
   __m128 least_, most_;
 };
 
-/// Calls visit(node, box) for the leaves that a box may touch during an interval, depth first.
+/// Around both.
+inline Box around(const Box& a, const Box& b) {
+  Box all = a;
+  for (int axis = 0; axis < 3; ++axis)
+    all.low[axis] = std::min(a.low[axis], b.low[axis]), all.high[axis] = std::max(a.high[axis], b.high[axis]);
+  return all;
+}
+
+/// Calls visit(node, box over the interval, box in this step) for the leaves that a box may touch during a step, depth
+/// first. If the step passes from one interval to the next, boxes are those over both.
 template <class Visit>
-void visit_leaves(const Surface& surface, int interval, const StepBoxes& boxes, const BoxQuery& query, Visit&& visit) {
+void visit_leaves(const Surface& surface, const SurfacePose& pose, const BoxQuery& query, Visit&& visit) {
   const int nodes = static_cast<int>(surface.nodes.size());
-  const Box* over_interval = &surface.boxes[std::size_t{1} * interval * nodes];
+  const StepBoxes boxes(surface, pose);
+  const Box *before = &surface.boxes[std::size_t{1} * pose.before.interval * nodes],
+            *after = &surface.boxes[std::size_t{1} * pose.after.interval * nodes];
   for (int n = 0; n < nodes;) {
-    const BoxEnds box = boxes.of(n, over_interval[n]);
+    const Box over_interval = before == after ? after[n] : around(before[n], after[n]);
+    const BoxEnds box = boxes.of(n, over_interval);
     const Surface::Node& node = surface.nodes[n];
     if (query.misses(box)) {
       n = node.skip;
       continue;
     }
-    if (node.cluster >= 0) visit(n, box);
+    if (node.cluster >= 0) visit(n, over_interval, box);
     ++n;
   }
 }
@@ -165,29 +176,25 @@ void visit_leaves(const Surface& surface, int interval, const StepBoxes& boxes, 
 /// Clusters that may touch a box during the step and satisfy near(node, low, high) as leaves of the tree, with their
 /// own box over the interval between frames: writes their numbers to `found`, in a fixed order.
 template <class Near>
-void find_clusters(const Surface& surface, const V3<double>& low, const V3<double>& high, SurfacePose& pose,
+void find_clusters(const Surface& surface, const V3<double>& low, const V3<double>& high, const SurfacePose& pose,
                    std::vector<int>& found, Near&& near) {
   found.clear();
-  ++pose.query;
-  const StepBoxes boxes(surface, pose);
-  for (const SurfaceMoment* m : {&pose.before, &pose.after}) {
-    if (m == &pose.after && m->interval == pose.before.interval && m->shift_W == pose.before.shift_W) break;
-    const V3<double> shift{m->shift_W[0], m->shift_W[1], m->shift_W[2]};
-    visit_leaves(surface, m->interval, boxes, BoxQuery(low - shift, high - shift), [&](int n, const BoxEnds& box) {
-      const int cluster = surface.nodes[n].cluster;
-      if (pose.listed[cluster] == pose.query || !near(n, shift + box.lowest(), shift + box.highest())) return;
-      pose.listed[cluster] = pose.query;
-      found.push_back(cluster);
-    });
-  }
+  const Eigen::Vector3d &a = pose.before.shift_W, &b = pose.after.shift_W;
+  const V3<double> least_shift{std::min(a[0], b[0]), std::min(a[1], b[1]), std::min(a[2], b[2])},
+      largest_shift{std::max(a[0], b[0]), std::max(a[1], b[1]), std::max(a[2], b[2])};
+  visit_leaves(surface, pose, BoxQuery(low - largest_shift, high - least_shift),
+               [&](int n, const Box&, const BoxEnds& box) {
+                 if (near(n, least_shift + box.lowest(), largest_shift + box.highest()))
+                   found.push_back(surface.nodes[n].cluster);
+               });
 }
-inline void find_clusters(const Surface& surface, const V3<double>& low, const V3<double>& high, SurfacePose& pose,
-                          std::vector<int>& found) {
+inline void find_clusters(const Surface& surface, const V3<double>& low, const V3<double>& high,
+                          const SurfacePose& pose, std::vector<int>& found) {
   find_clusters(surface, low, high, pose, found, [](int, const V3<double>&, const V3<double>&) { return true; });
 }
 
 /// Makes `list` hold every leaf that the box may touch in this step, in the order of find_clusters. False if it cannot:
-/// the step passes from one interval to the next or shifts the wall, or there are too many.
+/// the step passes from one interval to another but the next, or shifts the wall, or there are too many.
 bool renew(const Surface& surface, const V3<double>& low, const V3<double>& high, const SurfacePose& pose,
            LeafList& list);
 
@@ -199,9 +206,13 @@ RoughPose rough_pose(const Surface& surface, int node, const V3<double>& low, co
 /// The middle of a cluster's box at a moment, mixed as its corners are: a point that moves with the wall, exactly.
 V3<double> middle_of(const Surface& surface, int node, const SurfaceMoment& m);
 
-/// Bounds on how a cluster's corners move, relative to the middle of another: m per frame in the cycle, and m per unit
-/// of sway.
-double relative_speed(const Surface& surface, int interval, int cluster, int other);
+/// How fast a cluster moves in an interval relative to the middle of another, m per frame of the cycle, at most: the
+/// middle of its box, and any corner beside that middle.
+struct RelativeSpeed {
+  double middle = 0, beside = 0;
+};
+RelativeSpeed relative_speed(const Surface& surface, int interval, int cluster, int other);
+/// How far any corner moves relative to the middle of another leaf, m per unit of sway, at most.
 double relative_sway(const Surface& surface, int node, int other_node);
 
 /// A cluster's pose in this step, computed if needed.

@@ -299,8 +299,8 @@ TEST(Contact, WhatSleepsIsNotMet) {
   long posed = 0, posed_awake = 0;
   for (int n = 0; n < 1000; ++n) {
     a.step(90);
-    for (core::ContactScratch& c : b.scratch.contacts)
-      for (core::KeptLeaves& kept : c.leaves) kept.nodes = 0;  // wakes them
+    for (core::Lookouts& rod : b.scratch.lookouts)
+      for (core::KeptLeaves& kept : rod.leaves) kept.nodes = 0;  // wakes them
     b.step(90);
     posed += a.report.counts.clusters, posed_awake += b.report.counts.clusters;
     ASSERT_EQ(hash(a.state), hash(b.state)) << n;
