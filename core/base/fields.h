@@ -69,6 +69,14 @@ void for_each_field(S& s, Visit&& visit) {
              fields(static_cast<const Plain*>(nullptr)));
 }
 
+/// Short vectors of numbers that lie side by side without a gap, as Eigen's do.
+template <class V>
+concept IsShortVector = requires {
+  typename V::Scalar;
+  requires V::SizeAtCompileTime > 0;
+  requires sizeof(V) == sizeof(typename V::Scalar) * static_cast<std::size_t>(V::SizeAtCompileTime);
+};
+
 /// Calls visit(path, span) for all numbers of a member in the order of the lists; each span holds one type.
 template <class T, class Visit>
 void for_each_number(T& part, const FieldPath& path, Visit& visit) {
@@ -82,6 +90,10 @@ void for_each_number(T& part, const FieldPath& path, Visit& visit) {
       visit(path, std::span(part.at(c), static_cast<std::size_t>(part.size())));
   } else if constexpr (is_number<std::decay_t<decltype(*part.data())>>) {
     visit(path, std::span(part.data(), static_cast<std::size_t>(part.size())));
+  } else if constexpr (IsShortVector<std::decay_t<decltype(*part.data())>>) {
+    using Each = std::decay_t<decltype(*part.data())>;
+    auto* numbers = part.empty() ? nullptr : part.data()->data();
+    visit(path, std::span(numbers, part.size() * static_cast<std::size_t>(Each::SizeAtCompileTime)));
   } else {
     for (std::size_t i = 0; i < part.size(); ++i)
       for_each_number(part[i], {path.outer, path.name, static_cast<int>(i)}, visit);

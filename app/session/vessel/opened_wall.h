@@ -12,7 +12,7 @@ namespace ostium::app {
 inline constexpr double wall_follows_m = 0.02e-3;   ///< allowed lag behind the lumen where there is plaque,
 inline constexpr double wall_follows_share = 0.03;  ///< and elsewhere, relative to the radius
 inline constexpr int wall_cells_a_step = 1;         ///< cells moved per step, at most
-inline constexpr double aside_follows_m = 1e-6;     ///< allowed lag behind an artery that gives way, and how far the
+inline constexpr double aside_follows_m = 4e-6;     ///< allowed lag behind an artery that gives way, and how far the
 inline constexpr double aside_step_m = 5e-6;        ///< wall follows at once, at most: it may come back at instruments
 
 /// Makes contact's radii follow the lumen's, starting at `cursor`, which it advances. All (#cells).
