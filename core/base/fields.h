@@ -73,7 +73,8 @@ void for_each_field(S& s, Visit&& visit) {
 template <class V>
 concept IsShortVector = requires {
   typename V::Scalar;
-  requires V::SizeAtCompileTime > 0;
+  requires V::SizeAtCompileTime >
+  0;
   requires sizeof(V) == sizeof(typename V::Scalar) * static_cast<std::size_t>(V::SizeAtCompileTime);
 };
 

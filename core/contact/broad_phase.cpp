@@ -106,17 +106,18 @@ void look_at_kept(const Model& model, const Lookout& from, int k, SurfacePose& w
                   NodeWalls* walls) {
   const Surface& surface = *model.surfaces[static_cast<std::size_t>(k)];
   const StepBoxes boxes(surface, whole);
+  const Box* over_interval = boxes_of(surface, whole.after.interval);
   SleepWatch watch(surface, whole, from.nodes, kept);
   const Eigen::Vector3d& by = kept.list.shift_W;
   const V3<double> shift{by[0], by[1], by[2]};
   for (std::size_t n = 0; n < kept.list.leaves.size(); ++n) {
     if (watch.sleeps(n)) continue;
-    const LeafList::Leaf& leaf = kept.list.leaves[n];
-    const BoxEnds box = boxes.of(leaf.node, leaf.box);
-    const RoughPose rough = rough_pose(surface, leaf.node, shift + box.lowest(), shift + box.highest(), whole);
+    const int leaf = kept.list.leaves[n];
+    const BoxEnds box = boxes.of(leaf, over_interval[leaf]);  // counts for what stands still, in all intervals alike
+    const RoughPose rough = rough_pose(surface, leaf, shift + box.lowest(), shift + box.highest(), whole);
     watch.lay_down(n, from.nodes.near(rough.low, rough.high, rough.move) == 0
                           ? from.nodes.clearance(rough.low, rough.high)
-                          : look_at(model, from, k, surface.nodes[leaf.node].cluster, whole, walls));
+                          : look_at(model, from, k, surface.nodes[leaf].cluster, whole, walls));
   }
 }
 

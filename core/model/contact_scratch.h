@@ -58,6 +58,7 @@ inline constexpr int most_in_block = 8;  ///< nodes that share a query for walls
 struct KeptLeaves {
   struct Sleep {
     int node = 0;          ///< of the tree
+    int version = 0;       ///< of its cluster
     float speed_m = 0;     ///< per frame of the cycle, relative to the reference: any corner, at most
     float nears_m = 0;     ///< ... and how much nearer it may seem to come to a node within one step
     float wakes_at_m = 0;  ///< way at which a node may meet it
@@ -66,8 +67,8 @@ struct KeptLeaves {
   std::vector<Sleep> sleep;   ///< of each leaf
   std::vector<Sleep> before;  ///< working memory: those of the list before this one
   long made = -1;             ///< LeafList::made for which they were set, and
-  long edits = 0;             ///< LeafList::edits, and
   int interval = -1;          ///< LeafList::interval
+  long edits = 0;             ///< of Surface
   int reference = 0;          ///< node of the tree: the middle of its box moves as the walls here do, about
   double sway_m = 0;          ///< per unit of sway, relative to the reference: any leaf, at most
   double way_m = 0;           ///< how far the block's nodes have gone relative to the reference: at most
@@ -78,7 +79,7 @@ struct KeptLeaves {
   double reach[most_in_block];       ///< m
   int in_interval = 0;               ///< of SurfaceMoment, and
   double share = 0, sway = 0;        ///< likewise
-  double aside_way_m = 0;            ///< of Surface
+  double moved_m = 0;                ///< of Surface
   double to_next_m = 0;              ///< until the next interval began: what any leaf moved, at most
   Eigen::Vector3d shift_W{0, 0, 0};  ///< of SurfaceMoment
 

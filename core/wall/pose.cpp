@@ -111,7 +111,8 @@ void wrap(const Surface& surface, const Surface::Cluster& cluster, ClusterPose& 
 
 /// Whether its pose of this step has been computed.
 bool is_known(const Surface::Cluster& described, const ClusterPose& c, const SurfacePose& pose) {
-  return c.computed == pose.step || (described.stands_still && c.computed >= pose.stands_since);
+  return c.version == described.version &&
+         (c.computed == pose.step || (described.stands_still && c.computed >= pose.stands_since));
 }
 
 }  // namespace
@@ -124,17 +125,15 @@ SurfacePose::SurfacePose(const Surface& surface) : clusters(surface.clusters.siz
 void set_motion(const Surface& surface, const SurfaceMotion& motion, SurfacePose& pose) {
   const SurfaceMoment began = pose.before, ended = pose.after;
   pose.before = moment(surface, motion.frame_before, motion.shift_before_W, motion.sway_before);
-  const bool edited = pose.edits != surface.edits || pose.aside_way_m != surface.aside_way_m;
-  pose.goes_on = pose.before == ended && !edited;
-  pose.begins_again = pose.before == began && !edited;
-  pose.edits = surface.edits, pose.aside_way_m = surface.aside_way_m;
+  pose.goes_on = pose.before == ended;
+  pose.begins_again = pose.before == began;
   pose.door_open = motion.door_open;
   pose.after = moment(surface, motion.frame_after, motion.shift_after_W, motion.sway_after);
   ++pose.step;
   const auto stays = [](const SurfaceMoment& a, const SurfaceMoment& b) {
     return a.shift_W == b.shift_W && a.sway == b.sway;
   };
-  if (edited || !stays(ended, pose.before)) pose.stands_since = pose.step;
+  if (!stays(ended, pose.before)) pose.stands_since = pose.step;
   if (!stays(pose.before, pose.after)) pose.stands_since = pose.step + 1;
 }
 
@@ -254,23 +253,20 @@ bool renew(const Surface& surface, const V3<double>& low, const V3<double>& high
   constexpr double margin_m = 1e-3, rounding_m = 1e-6;
   const SurfaceMoment &a = pose.before, &b = pose.after;
   if ((a.interval != b.interval && !passes_to_next(surface, a, b)) || a.shift_W != b.shift_W) return false;
-  if (list.interval == a.interval && list.interval == b.interval && list.edits == surface.edits &&
-      list.shift_W == a.shift_W &&
-      lies_within(low, high, list,
-                  swayed_m(surface, pose, list) + (surface.aside_way_m - list.aside_way_m) + rounding_m))
+  if (list.interval == a.interval && list.interval == b.interval && list.shift_W == a.shift_W &&
+      lies_within(low, high, list, swayed_m(surface, pose, list) + (surface.moved_m - list.moved_m) + rounding_m))
     return true;
   const V3<double> margin{margin_m, margin_m, margin_m}, shift{a.shift_W[0], a.shift_W[1], a.shift_W[2]};
   list.low = low - margin, list.high = high + margin;
   list.sway_low = std::min(a.sway, b.sway), list.sway_high = std::max(a.sway, b.sway);
-  list.edits = surface.edits, list.aside_way_m = surface.aside_way_m, list.shift_W = a.shift_W;
+  list.moved_m = surface.moved_m, list.shift_W = a.shift_W;
   list.leaves.clear();
   ++list.made;
   bool all = true;
-  visit_leaves(surface, pose, BoxQuery(list.low - shift, list.high - shift),
-               [&](int n, const Box& over_interval, const BoxEnds&) {
-                 all = all && list.leaves.size() < LeafList::most;
-                 if (all) list.leaves.push_back({over_interval, n});
-               });
+  visit_leaves(surface, pose, BoxQuery(list.low - shift, list.high - shift), [&](int n, const BoxEnds&) {
+    all = all && list.leaves.size() < LeafList::most;
+    if (all) list.leaves.push_back(n);
+  });
   list.interval = all ? b.interval : -1;
   return all;
 }
@@ -319,8 +315,9 @@ const ClusterPose& pose_of(const Surface& surface, int cluster, SurfacePose& pos
   ClusterPose& c = pose.clusters[cluster];
   const Surface::Cluster& described = surface.clusters[cluster];
   if (is_known(described, c, pose)) return c;
-  const bool was_known = c.computed == pose.step - 1, begins_again = was_known && pose.begins_again;
-  c.computed = pose.step;
+  const bool was_known = c.computed == pose.step - 1 && c.version == described.version,
+             begins_again = was_known && pose.begins_again;
+  c.computed = pose.step, c.version = described.version;
   ++pose.posed;
   if (was_known && pose.goes_on)
     std::swap(c.before, c.after);

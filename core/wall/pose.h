@@ -42,7 +42,8 @@ struct ClusterPose {
   ClusterDrift move;
   Field<3> before, after;  ///< (#corners)
   TriangleBounds bounds{};
-  long computed = -1;  ///< step for which it was computed
+  long computed = -1;  ///< step for which it was computed, and
+  int version = 0;     ///< Surface::Cluster::version
 };
 
 /// Where a cluster lies, without computing its corners: a box around them at the beginning of the step, and how they
@@ -57,13 +58,12 @@ struct SurfacePose {
 
   SurfaceMoment before, after;
   std::vector<ClusterPose> clusters;
-  long step = 0, edits = -1;
-  double aside_way_m = 0;  ///< of the surface, as `edits` is
-  long stands_since = 0;   ///< the step since which parts that stand still in the cycle have not moved
-  int posed = 0;           ///< clusters whose pose was computed since this was set to 0
+  long step = 0;
+  long stands_since = 0;  ///< the step since which parts that stand still in the cycle have not moved, but for edits
+  int posed = 0;          ///< clusters whose pose was computed since this was set to 0
   bool door_open = false;
-  bool goes_on = false;       ///< this step begins where the last one ended, on the same surface
-  bool begins_again = false;  ///< ... or where the last one began: a part of it is tried
+  bool goes_on = false;       ///< this step begins where the last one ended, but for edits,
+  bool begins_again = false;  ///< or where the last one began: a part of it is tried
 };
 
 /// Sets `pose` to a new step.
@@ -99,16 +99,12 @@ struct BoxQuery {
 /// a query finds does not depend on it.
 struct LeafList {
   static constexpr std::size_t most = 768;
-  struct Leaf {
-    Box box;  ///< over the interval; also over the one before it if the list was made as a step passed between them
-    int node;
-  };
   V3<double> low, high;  ///< the box that was searched; its leaves are all here
   int interval = -1;     ///< in which steps end; -1: nothing is kept
-  long edits = 0;
-  double aside_way_m = 0, sway_low = 0, sway_high = 0;
+  double moved_m = 0;    ///< of Surface
+  double sway_low = 0, sway_high = 0;
   Eigen::Vector3d shift_W = Eigen::Vector3d::Zero();
-  std::vector<Leaf> leaves;
+  std::vector<int> leaves;  ///< nodes of the tree
 
   long made = 0;  ///< times that the leaves were searched anew
 
@@ -144,6 +140,11 @@ class StepBoxes {
   __m128 least_, most_;
 };
 
+/// Of all nodes of the tree, over an interval.
+inline const Box* boxes_of(const Surface& surface, int interval) {
+  return &surface.boxes[static_cast<std::size_t>(interval) * surface.nodes.size()];
+}
+
 /// Around both.
 inline Box around(const Box& a, const Box& b) {
   Box all = a;
@@ -152,14 +153,13 @@ inline Box around(const Box& a, const Box& b) {
   return all;
 }
 
-/// Calls visit(node, box over the interval, box in this step) for the leaves that a box may touch during a step, depth
-/// first. If the step passes from one interval to the next, boxes are those over both.
+/// Calls visit(node, box) for the leaves that a box may touch during a step, depth first. If the step passes from one
+/// interval to the next, boxes are those over both.
 template <class Visit>
 void visit_leaves(const Surface& surface, const SurfacePose& pose, const BoxQuery& query, Visit&& visit) {
   const int nodes = static_cast<int>(surface.nodes.size());
   const StepBoxes boxes(surface, pose);
-  const Box *before = &surface.boxes[std::size_t{1} * pose.before.interval * nodes],
-            *after = &surface.boxes[std::size_t{1} * pose.after.interval * nodes];
+  const Box *before = boxes_of(surface, pose.before.interval), *after = boxes_of(surface, pose.after.interval);
   for (int n = 0; n < nodes;) {
     const Box over_interval = before == after ? after[n] : around(before[n], after[n]);
     const BoxEnds box = boxes.of(n, over_interval);
@@ -168,7 +168,7 @@ void visit_leaves(const Surface& surface, const SurfacePose& pose, const BoxQuer
       n = node.skip;
       continue;
     }
-    if (node.cluster >= 0) visit(n, over_interval, box);
+    if (node.cluster >= 0) visit(n, box);
     ++n;
   }
 }
@@ -182,11 +182,9 @@ void find_clusters(const Surface& surface, const V3<double>& low, const V3<doubl
   const Eigen::Vector3d &a = pose.before.shift_W, &b = pose.after.shift_W;
   const V3<double> least_shift{std::min(a[0], b[0]), std::min(a[1], b[1]), std::min(a[2], b[2])},
       largest_shift{std::max(a[0], b[0]), std::max(a[1], b[1]), std::max(a[2], b[2])};
-  visit_leaves(surface, pose, BoxQuery(low - largest_shift, high - least_shift),
-               [&](int n, const Box&, const BoxEnds& box) {
-                 if (near(n, least_shift + box.lowest(), largest_shift + box.highest()))
-                   found.push_back(surface.nodes[n].cluster);
-               });
+  visit_leaves(surface, pose, BoxQuery(low - largest_shift, high - least_shift), [&](int n, const BoxEnds& box) {
+    if (near(n, least_shift + box.lowest(), largest_shift + box.highest())) found.push_back(surface.nodes[n].cluster);
+  });
 }
 inline void find_clusters(const Surface& surface, const V3<double>& low, const V3<double>& high,
                           const SurfacePose& pose, std::vector<int>& found) {

@@ -33,12 +33,26 @@ SurfaceEditor::SurfaceEditor(const SurfaceDescription& description, Surface& sur
   pending_.reserve(surface.nodes.size());
 }
 
+namespace {
+
+/// Sets a number; returns the square of its change.
+double set(float& number, double to) {
+  const double was = number;
+  number = static_cast<float>(to);
+  return (double{number} - was) * (double{number} - was);
+}
+
+}  // namespace
+
 void SurfaceEditor::place(int vertex, int frame, const Eigen::Vector3d& p_W) {
+  constexpr double weights = 1.25;  // between frames: sum of |w| of frame_weights, at most
   for (int k = first_corner_[vertex]; k < first_corner_[vertex + 1]; ++k) {
     const int corner = corners_[k];
     const Surface::Cluster& c = surface_.clusters[cluster_of_[corner]];
+    double moved2 = 0;
     for (int axis = 0; axis < 3; ++axis)
-      surface_.corner_frames[surface_.row(c, frame, axis) + corner - c.first_corner] = static_cast<float>(p_W[axis]);
+      moved2 += set(surface_.corner_frames[surface_.row(c, frame, axis) + corner - c.first_corner], p_W[axis]);
+    moved_m_ = std::max(moved_m_, weights * std::sqrt(moved2));
     mark(corner);
   }
 }
@@ -56,14 +70,23 @@ void SurfaceEditor::refit() {
     for (int n : pending_) boxes[n] = box_of(surface_, boxes, n, k);
   }
   for (int n : pending_) {
-    changed_[n] = 0;
     if (surface_.nodes[n].cluster < 0) continue;
     Surface::Cluster& c = surface_.clusters[surface_.nodes[n].cluster];
     c.stands_still = stands_still(surface_, c);
     bound_frames(surface_.nodes[n].cluster, surface_);
   }
   if (!pending_.empty()) ++surface_.edits;
+  settle();
+}
+
+void SurfaceEditor::settle() {
+  for (int n : pending_) {
+    changed_[n] = 0;
+    if (const int cluster = surface_.nodes[n].cluster; cluster >= 0) ++surface_.clusters[cluster].version;
+  }
   pending_.clear();
+  surface_.moved_m += moved_m_;
+  moved_m_ = 0;
 }
 
 void SurfaceEditor::let_yield() {
@@ -76,13 +99,9 @@ void SurfaceEditor::put_aside(int vertex, const Eigen::Vector3d& by_W) {
     const int corner = corners_[k];
     const Surface::Cluster& c = surface_.clusters[cluster_of_[corner]];
     double moved2 = 0;
-    for (int axis = 0; axis < 3; ++axis) {
-      float& was = surface_.corner_aside[surface_.sway_row(c, axis) + corner - c.first_corner];
-      const auto is = static_cast<float>(by_W[axis]);
-      moved2 += double{is - was} * double{is - was};
-      was = is;
-    }
-    moved_aside_m_ = std::max(moved_aside_m_, std::sqrt(moved2));
+    for (int axis = 0; axis < 3; ++axis)
+      moved2 += set(surface_.corner_aside[surface_.sway_row(c, axis) + corner - c.first_corner], by_W[axis]);
+    moved_m_ = std::max(moved_m_, std::sqrt(moved2));
     mark(corner);
   }
 }
@@ -90,14 +109,11 @@ void SurfaceEditor::put_aside(int vertex, const Eigen::Vector3d& by_W) {
 void SurfaceEditor::refit_aside() {
   std::sort(pending_.begin(), pending_.end(), std::greater<>());
   for (int n : pending_) {
-    changed_[n] = 0;
     const int cluster = surface_.nodes[n].cluster;
     surface_.aside_boxes[n] = cluster >= 0 ? box_of_corners(surface_, surface_.corner_aside, surface_.clusters[cluster])
                                            : around_children(surface_, surface_.aside_boxes.data(), n);
   }
-  pending_.clear();
-  surface_.aside_way_m += moved_aside_m_;
-  moved_aside_m_ = 0;
+  settle();
 }
 
 std::array<double, 4> frame_weights(double x) {

@@ -50,6 +50,7 @@ struct Surface {
     int first_triangle = 0, triangles = 0;
     int first_corner = 0, corners = 0;  ///< its own copies of the vertices, in `corner_frames`
     bool stands_still = false;          ///< its corners are at the same position in all frames
+    int version = 0;                    ///< changes with each edit of it
   };
   struct Node {    ///< of the tree, depth first: the first child follows its parent
     int skip = 0;  ///< next node if the box is missed
@@ -78,10 +79,10 @@ struct Surface {
   std::vector<FrameBounds, OnHugePages<FrameBounds>> frame_bounds;
   std::vector<float> corner_aside;  ///< as corner_sway, m; empty: it lies as described
   std::vector<Box> aside_boxes;     ///< [node], of these; empty as they are
-  double aside_way_m = 0;           ///< how far any corner was moved aside so far, all moves summed up, at most
+  double moved_m = 0;               ///< how far edits have moved any corner so far, all summed up, at most
   double stiffness_N_m2 = 0, friction = 0, door_passes_m = 0;
   int largest_cluster = 0;  ///< in corners
-  long edits = 0;           ///< number of changes by a SurfaceEditor
+  long edits = 0;           ///< number of changes of frames by a SurfaceEditor
 
   /// Start of an axis of a cluster's corners in `corner_frames`.
   std::size_t row(const Cluster& c, int frame, int axis) const {
@@ -124,6 +125,8 @@ class SurfaceEditor {
  private:
   /// Marks the nodes around a corner, up to the root.
   void mark(int corner);
+  /// Nothing is pending any more.
+  void settle();
 
   Surface& surface_;
   std::vector<int> first_corner_, corners_;  ///< of each vertex: corners_[first_corner_[v], first_corner_[v + 1])
@@ -131,7 +134,7 @@ class SurfaceEditor {
   std::vector<int> leaf_of_, parent_;        ///< node of each cluster; parent of each node, -1 for the root
   std::vector<char> changed_;                ///< (#nodes)
   std::vector<int> pending_;                 ///< nodes whose box is to be refitted, children before parents once sorted
-  double moved_aside_m_ = 0;                 ///< since refit_aside: any corner, at most
+  double moved_m_ = 0;                       ///< since the last refit: any corner, at most
 };
 
 /// Position of a surface in its cycle at both ends of a step, in frames: any numbers, taken modulo the number of

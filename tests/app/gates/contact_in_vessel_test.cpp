@@ -214,8 +214,8 @@ TEST(Surface, AKeptListHasWhatTheTreeFinds) {
       some += !found.empty();
       if (!renew(surface, q - pad, q + pad, pose, list)) continue;
       kept.clear();
-      for (const core::LeafList::Leaf& leaf : list.leaves)
-        if (const int cluster = surface.nodes[leaf.node].cluster;
+      for (const int leaf : list.leaves)
+        if (const int cluster = surface.nodes[leaf].cluster;
             std::find(found.begin(), found.end(), cluster) != found.end())
           kept.push_back(cluster);
       ASSERT_EQ(kept, found) << walk << ", " << n;
