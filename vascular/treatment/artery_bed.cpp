@@ -99,6 +99,22 @@ void solve(const ArteryBedModel& m, ArteryBedScratch& x, std::vector<Vector3d>& 
   }
 }
 
+/// v, or what of it is no longer than `most`.
+Vector3d at_most(const Vector3d& v, double most) {
+  const double length = v.norm();
+  return length > most ? Vector3d(most / length * v) : v;
+}
+
+/// From the origins to the ends; a cell comes after the one upstream of it.
+void limit(const ArteryBedModel& m, std::vector<Vector3d>& z) {
+  for (std::size_t c = 0; c < z.size(); ++c) {
+    z[c] = at_most(z[c], m.law.most_aside_m);
+    if (m.upstream[c] < 0) continue;
+    const Vector3d& up = z[static_cast<std::size_t>(m.upstream[c])];
+    z[c] = up + at_most(z[c] - up, m.law.steepest * m.from_m[c]);
+  }
+}
+
 }  // namespace
 
 ArteryBedModel make_artery_bed(const FlowTree& tree, const ArteryBedLaw& law) {
@@ -128,8 +144,7 @@ void step(const ArteryBedModel& m, const ArteryBedInputs& in, double dt, ArteryB
   for (const BedTube& tube : in.tubes) add_tube(m, tube, s, x);
   hold_origins(m, x);
   solve(m, x, s.aside_P);
-  for (Vector3d& z : s.aside_P)
-    if (const double far_m = z.norm(); far_m > m.law.most_aside_m) z *= m.law.most_aside_m / far_m;
+  limit(m, s.aside_P);
 }
 
 Vector3d curvature_of(const Vector3d& a, const Vector3d& b, const Vector3d& c) {

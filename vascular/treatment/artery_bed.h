@@ -27,6 +27,7 @@ struct ArteryBedLaw {
   double wall_m = 0.5e-3;      ///< t
   double yields_s = 0.3;       ///< T
   double most_aside_m = 3e-3;  ///< farther it does not go
+  double steepest = 0.35;      ///< dz/ds, nor does it turn by more than 20 degrees: its lumen would fold
 };
 
 struct ArteryBedModel {

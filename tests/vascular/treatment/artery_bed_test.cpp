@@ -61,6 +61,22 @@ TEST(ArteryBed, GivesWayAsABeamOnAnElasticBed) {
   EXPECT_EQ(one.state.aside_P[0].z(), 0);
 }
 
+TEST(ArteryBed, TurnsNoMoreThanItsLumenBears) {
+  // What folded a left main: a guide that was drawn with 10 N, on cells that lie beside one that stays where it is.
+  Arteries one({{-1, 300, cell_m, 1.5e-3}});
+  for (const std::size_t pulled : {1UL, 3UL, 150UL}) one.load_N[pulled] = Vector3d(0, 10, 0);
+  for (const double for_s : {0.1, 10.0}) {
+    one.run(for_s);
+    const std::vector<Vector3d>& z = one.state.aside_P;
+    double steepest = 0, most_m = 0;
+    for (std::size_t c = 1; c < z.size(); ++c)
+      steepest = std::max(steepest, (z[c] - z[c - 1]).norm() / cell_m), most_m = std::max(most_m, z[c].norm());
+    EXPECT_NEAR(steepest, one.model.law.steepest, 1e-9);
+    EXPECT_LE(most_m, one.model.law.most_aside_m * (1 + 1e-9));
+    EXPECT_GT(most_m, 1e-3);
+  }
+}
+
 TEST(ArteryBed, ComesBackWithItsTime) {
   Arteries one({{-1, 300, cell_m, 1.5e-3}});
   const double k = one.model.law.bed_N_m2, T = one.model.law.yields_s;
@@ -103,7 +119,7 @@ TEST(ArteryBed, ABalloonStraightensABend) {
 
 TEST(ArteryBed, NeverGoesFartherThanItMay) {
   Arteries one({{-1, 100, cell_m, 1.5e-3}});
-  one.load_N[50] = Vector3d(50, 0, 0);
+  for (std::size_t cell = 30; cell < 70; ++cell) one.load_N[cell] = Vector3d(5, 0, 0);
   one.settle();
   EXPECT_NEAR(one.state.aside_P[50].norm(), one.model.law.most_aside_m, 1e-9);
 }
