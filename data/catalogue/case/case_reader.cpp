@@ -165,6 +165,7 @@ std::vector<Case> load_cases() {
 }
 
 std::string case_file(const std::string& name) {
+  if (name.empty()) throw LoadError("a case has no name; expected that of a case (`ostium cases`), its file or folder");
   const fs::path shipped = fs::path(data_folder()) / "cases" / (name + ".json");
   for (const fs::path& file :
        {shipped, case_file_in(fs::path(imported_folder()) / name), case_file_in(name), fs::path(name)})
