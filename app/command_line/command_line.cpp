@@ -147,18 +147,6 @@ bool is_one_file(const std::string& a, const std::string& b) {
   return (to_a == to_b && !to_a.empty()) || fs::equivalent(to_a, to_b, none);
 }
 
-/// Throws WriteError if a file cannot be put there: found after hours of work it would be late.
-void require_place_for(const std::string& file) {
-  namespace fs = std::filesystem;
-  std::error_code none;
-  if (data::is_folder(file)) throw data::write_error(file, "it is a folder, not a file");
-  if (fs::exists(file, none) && !data::is_file(file)) return;  // a device takes what comes
-  fs::path folder = fs::weakly_canonical(fs::absolute(file, none), none).parent_path();
-  while (folder.has_relative_path() && !data::is_there(folder)) folder = folder.parent_path();  // the rest is made
-  if (!folder.empty() && access(folder.c_str(), W_OK | X_OK) != 0)
-    throw data::write_error(file, std::strerror(data::is_folder(folder) ? errno : ENOTDIR));
-}
-
 /// Throws LoadError if a file that is to be written is named twice, or is one to read; WriteError if it cannot be
 /// written.
 void require_apart(const CLI::App& app, const std::vector<const CLI::Option*>& written) {
@@ -169,7 +157,7 @@ void require_apart(const CLI::App& app, const std::vector<const CLI::Option*>& w
   };
   for (std::size_t i = 0; i < options.size(); ++i) {
     if (!writes(options[i])) continue;
-    if (options[i]->count() > 0) require_place_for(options[i]->results().front());
+    if (options[i]->count() > 0) data::require_place_for(options[i]->results().front());
     for (const std::string& file : values_of(*options[i]))
       for (std::size_t j = 0; j < options.size(); ++j) {
         const bool both = writes(options[j]);

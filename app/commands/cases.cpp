@@ -62,8 +62,10 @@ void write_case(const data::Case& c, const std::string& folder) {
 }
 
 int run(const Arguments& a) {
+  std::vector<std::string> unread;
   const std::vector<data::Case> cases =
-      a.name.empty() ? data::load_cases() : std::vector<data::Case>{data::find_case(a.name)};
+      a.name.empty() ? data::load_cases(&unread) : std::vector<data::Case>{data::find_case(a.name)};
+  for (const std::string& why : unread) fmt::print(stderr, "left out: {}\n", why);
   if (!a.folder.empty()) {
     if (a.name.empty())
       throw data::LoadError("--export writes one case; name it, for example: ostium cases rca-mid-focal --export DIR");

@@ -63,6 +63,13 @@ bool within(double value, const ScoreCheck& check) {
   return value >= check.least.value_or(-INFINITY) && value <= check.most.value_or(INFINITY);
 }
 
+/// As people say it: a way through the vessels is in cm, as lists and the page say it.
+std::string score_text(const Metric& metric) {
+  if (metric.unit == "s") return value_text(metric);
+  if (metric.unit == "mm" && std::fabs(metric.value) >= 100) return fmt::format("{:.3g} cm", metric.value / 10);
+  return metric.unit == "1" ? fmt::format("{:.3g}", metric.value) : fmt::format("{:.3g} {}", metric.value, metric.unit);
+}
+
 Score judge(const ScoreItem& item, const RunRecord& record, const std::vector<Metric>& metrics) {
   Score out;
   if (!item.check) return out;
@@ -73,8 +80,7 @@ Score judge(const ScoreItem& item, const RunRecord& record, const std::vector<Me
         std::find_if(metrics.begin(), metrics.end(), [&](const Metric& m) { return m.name == check.metric; });
     if (metric == metrics.end() || !std::isfinite(metric->value)) return out;
     out.holds = ticked(within(metric->value, check));
-    out.value = metric->unit == "s" ? value_text(*metric)
-                                    : fmt::format("{:.3g} {}", metric->value, metric->unit == "1" ? "" : metric->unit);
+    out.value = score_text(*metric);
     return out;
   }
   const std::vector<double> at = times(record, *check.event);

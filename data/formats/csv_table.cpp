@@ -64,6 +64,20 @@ std::string text_of(const std::string& file, const std::string& expected) {
   return out;
 }
 
+bool is_empty(const std::vector<std::string>& fields) {
+  return std::all_of(fields.begin(), fields.end(), [](const std::string& field) { return field.empty(); });
+}
+
+/// Spreadsheets leave empty columns on the right.
+void drop_empty_columns(CsvTable& table) {
+  while (
+      table.columns.size() > 1 && table.columns.back().empty() &&
+      std::all_of(table.rows.begin(), table.rows.end(), [](const CsvRow& row) { return row.fields.back().empty(); })) {
+    table.columns.pop_back();
+    for (CsvRow& row : table.rows) row.fields.pop_back();
+  }
+}
+
 }  // namespace
 
 CsvTable load_csv(const std::string& file, const std::string& expected) {
@@ -86,13 +100,16 @@ CsvTable load_csv(const std::string& file, const std::string& expected) {
                                     number, expected));
       continue;
     }
-    out.rows.push_back({number, split_fields(line, separator)});
+    std::vector<std::string> fields_of_line = split_fields(line, separator);
+    if (is_empty(fields_of_line)) continue;  // as spreadsheets leave them below
+    out.rows.push_back({number, std::move(fields_of_line)});
     if (const std::size_t fields = out.rows.back().fields.size(); fields != out.columns.size())
       throw LoadError(
           fmt::format("{}:{}: {} fields; expected {}, as the header in line {} has; what stands above the "
                       "header, or is no part of the table, begins with #",
                       file, number, fields, out.columns.size(), out.header_line));
   }
+  drop_empty_columns(out);
   if (out.columns.empty()) throw LoadError(file + " is empty; expected a header with the columns " + expected);
   return out;
 }

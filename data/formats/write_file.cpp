@@ -74,6 +74,17 @@ void NewFile::finish() {
   throw write_error(path_, why);
 }
 
+void require_place_for(const std::string& file) {
+  std::error_code none;
+  if (file.empty()) throw WriteError("a file without a name cannot be written; expected a name");
+  if (is_folder(file)) throw write_error(file, "it is a folder, not a file");
+  if (fs::exists(file, none) && !is_file(file)) return;  // a device takes what comes
+  fs::path folder = fs::weakly_canonical(fs::absolute(file, none), none).parent_path();
+  while (folder.has_relative_path() && !is_there(folder)) folder = folder.parent_path();  // the rest is made
+  if (!folder.empty() && access(folder.c_str(), W_OK | X_OK) != 0)
+    throw write_error(file, std::strerror(is_folder(folder) ? errno : ENOTDIR));
+}
+
 void write_file(const std::string& path, std::string_view bytes) {
   NewFile file(path);
   std::FILE* out = std::fopen(file.beside().c_str(), "wb");

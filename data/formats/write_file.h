@@ -38,6 +38,9 @@ class NewFile {
 /// Writes `bytes`. Throws WriteError; what was there is then as it was.
 void write_file(const std::string& path, std::string_view bytes);
 
+/// Throws WriteError if a file cannot be put there: found after hours of work it would be late.
+void require_place_for(const std::string& file);
+
 /// "FILE: cannot be written (why); ..."
 WriteError write_error(const std::string& path, const std::string& why = "");
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 #include <stdexcept>
 
 namespace ostium::fluoro {
@@ -72,8 +73,9 @@ Programme cine(double frames_per_s) {
 void require_rate(double frames_per_s) {
   for (double rate : {3.75, 7.5, 15.0, 30.0})
     if (frames_per_s == rate) return;
-  throw std::invalid_argument("fluoroscopy: there is no frame rate of " + std::to_string(frames_per_s) +
-                              "; there are 3.75, 7.5, 15 and 30 frames a second");
+  std::ostringstream what;
+  what << "there is no frame rate of " << frames_per_s << " a second; expected 3.75, 7.5, 15 or 30";
+  throw std::invalid_argument(what.str());
 }
 
 void check(const Collimator& c) {

@@ -145,6 +145,22 @@ def a_recording_that_fails(folder):
         page.wait("it goes on", of("now", paused=False))
 
 
-for test in (a_lesson_that_cannot_be_opened, a_verdict_that_cannot_be_kept, a_recording_that_fails):
+def a_branch_that_cannot_be_written(folder):
+    with Program(folder, "serve", "rca-mid-focal", "--hands", "browser", "--out", "out", "--go", "--no-report") as page:
+        page.wait("two seconds", lambda m: m["type"] == "now" and m["s"] > 2)
+        page.say({"do": "mark", "text": "kept"})
+        (folder / "out/branch-2.h5").mkdir()
+        page.say({"do": "rewind", "values": [1]})
+        page.wait("why it cannot go back", lambda m: m["type"] == "refused" and "cannot go on from 1 s" in m["why"])
+        page.wait("the end, where it was left", of("ended"))
+        (folder / "out/branch-2.h5").rmdir()
+        page.say({"do": "rewind", "values": [1]})
+        page.wait("the branch", of("branch", recording="branch-2.h5"))
+    note, = json.loads((folder / "out/notes.json").read_text(encoding="utf-8"))
+    assert note["note"] == "kept" and note["recording"] == "run.h5", note
+
+
+for test in (a_lesson_that_cannot_be_opened, a_verdict_that_cannot_be_kept, a_recording_that_fails,
+             a_branch_that_cannot_be_written):
     with tempfile.TemporaryDirectory() as made:
         test(pathlib.Path(made))

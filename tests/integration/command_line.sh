@@ -320,7 +320,7 @@ soon "there is no picture to show that in" replay "$out/run.h5" --rate 30
 soon "is the length of a film" replay "$out/run.h5" --seconds 1
 soon "is the length of a film" replay "$out/run.h5" --seconds 1 --png "$out/moment.png"
 soon "s long" replay "$out/run.h5" --from 60
-soon "no frame rate" replay "$out/run.h5" --rate 7 --video "$out/moment.mp4"
+soon "no frame rate of 7 a second" replay "$out/run.h5" --rate 7 --video "$out/moment.mp4"
 soon "cannot be reached" replay "$out/run.h5" --lao 300 --png "$out/moment.png"
 soon "png is known" replay "$out/run.h5" --png "$out/moment.bmp"
 soon "mp4 is known" replay "$out/run.h5" --video "$out/moment.avi"

@@ -53,7 +53,7 @@ def test_odd_arguments(model, vessel, tmp_path):
             batch.reset(0, wrong)
     batch.step(1, mask=[1, 0])
     batch.step(1, mask=np.array([1, 0]))
-    with pytest.raises(ostium.OstiumError):
+    with pytest.raises(ostium.OstiumError, match="has no name"):
         ostium.Vessel("")
     tube(tmp_path / "tube.stl")
     with pytest.raises(ValueError, match="another unit"):
@@ -62,3 +62,12 @@ def test_odd_arguments(model, vessel, tmp_path):
     assert "aorta-arch-wire" in ostium.scripts() and "spider" in ostium.views()
     with pytest.raises(ValueError, match="reach"):
         ostium.Imager(model, cran=89)
+
+
+@pytest.mark.parametrize("place, why", [("", "without a name"), (".", "is a folder"),
+                                        ("mesh.stl/run.h5", "Not a directory")])
+def test_a_recording_that_has_no_place_is_refused_before_anything_is_built(tmp_path, monkeypatch, place, why):
+    monkeypatch.chdir(tmp_path)
+    tube(tmp_path / "mesh.stl")
+    with pytest.raises(ostium.OstiumError, match=why):
+        ostium.run_script("no-such-case", "no-such-script", recording=place)

@@ -127,9 +127,8 @@ Served serve(const ServeArguments& arguments) {
   hand.end_on(interrupted);
   Checklist checklist(a.instructions, script, session.model);
   hand.follow(&checklist);
-  // Dose and picture take seconds to prepare, in which a server of its own has nothing to keep yet.
-  std::optional<EndsAtOnce> nothing_yet;
-  if (!a.classroom) nothing_yet.emplace();
+  // Dose and picture take seconds to prepare, in which there is nothing to keep yet.
+  std::optional<EndsAtOnce> nothing_yet(std::in_place);
   Station station(session, hand, list, settings_of(a));
   show_progress("");
   if (!a.classroom) tell_links(station.trainer_link(), station.viewer_link(), !is_loopback(a.address));

@@ -85,19 +85,26 @@ void Sitting::stand_at(const Continued& from) {
 }
 
 Served Sitting::play_all() {
-  Wish wish = play_once();
-  while (wish.kind == Wish::Kind::go_back && !interrupted) {
-    try {
-      stand_at({(fs::path(a_.folder) / recording_).string(), wish.second * steps_a_second});
-    } catch (const data::LoadError& error) {
-      station_.tell_problem(error.what());
-      wish = station_.wait(interrupted);
-      continue;
-    }
-    station_.gone_back(wish.second, recording_);
-    wish = play_once();
-  }
+  Wish wish = play_once({});
+  while (wish.kind == Wish::Kind::go_back && !interrupted) wish = go_on_from(wish.second);
   return {last_, scores_, problem_};
+}
+
+/// Where it cannot, as the disk is full, the run has ended where it was left.
+Wish Sitting::go_on_from(std::size_t second) {
+  const std::string left = recording_;
+  const int branches = branches_;
+  bool begun = false;
+  try {
+    stand_at({(fs::path(a_.folder) / recording_).string(), second * steps_a_second});
+    return play_once([&] { begun = true, station_.gone_back(second, recording_); });
+  } catch (const std::runtime_error& error) {  // LoadError, WriteError
+    if (begun) throw;
+    note_problem(fmt::format("it cannot go on from {} s: {}", second, error.what()));
+  }
+  recording_ = left, branches_ = branches;
+  finish((fs::path(a_.folder) / recording_).string());
+  return station_.wait(interrupted);
 }
 
 void Sitting::note_problem(const std::string& what) {
@@ -116,8 +123,9 @@ void Sitting::keep(const std::function<void()>& what) {
   }
 }
 
-Wish Sitting::play_once() {
+Wish Sitting::play_once(const std::function<void()>& begun) {
   PlayOptions options;
+  options.begun = begun;
   options.recorder.file = (fs::path(a_.folder) / recording_).string();
   options.recorder.continues = continues_, options.recorder.watch = watch_;
   options.recorder.heard = [this, tell = station_.ear()](const SessionEvent& event) {
@@ -141,7 +149,8 @@ Wish Sitting::play_once() {
 }
 
 void Sitting::finish(const std::string& file) {
-  scores_ = score(list_, record_of(data::RecordingReader(file), run_.model), last_.metrics);
+  scores_.assign(list_.items.size(), {});
+  keep([&] { scores_ = score(list_, record_of(data::RecordingReader(file), run_.model), last_.metrics); });
   station_.ended(last_, scores_);
   if (a_.ended) keep([this] { a_.ended({last_, scores_}); });
   keep([this] {

@@ -16,7 +16,8 @@ class Sitting {
   Served play_all();
 
  private:
-  Wish play_once();
+  Wish play_once(const std::function<void()>& begun);
+  Wish go_on_from(std::size_t second);
   void stand_at(const Continued& from);
   void finish(const std::string& file);
   void note_problem(const std::string& what);

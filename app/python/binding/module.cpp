@@ -9,6 +9,7 @@
 #include "app/reader/read_apart.h"
 #include "data/catalogue/catalogue.h"
 #include "data/formats/load_error.h"
+#include "data/formats/write_file.h"
 #include "vascular/geometry/mesh/mesh.h"
 #include "vascular/geometry/mesh_files/raw_surface.h"
 
@@ -25,6 +26,8 @@ void raise_as_ostium_error(std::exception_ptr thrown) {  // NOLINT(performance-u
   try {
     if (thrown) std::rethrow_exception(thrown);
   } catch (const ostium::data::LoadError& error) {
+    raise(error);
+  } catch (const ostium::data::WriteError& error) {
     raise(error);
   } catch (const ostium::vascular::MeshError& error) {
     raise(error);

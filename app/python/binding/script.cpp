@@ -15,6 +15,7 @@
 #include "app/session/labelling/splits.h"
 #include "app/session/run/play.h"
 #include "data/formats/dicom/dicom.h"
+#include "data/formats/write_file.h"
 
 namespace ostium::python {
 
@@ -79,6 +80,13 @@ void require_seconds(double seconds) {
   if (!(seconds >= 0 && seconds <= 36000)) throw py::value_error("seconds is outside 0 to 36000");
 }
 
+/// Before anything is built. Its folder is made as needed.
+void require_recording(const std::filesystem::path& file) {
+  data::require_place_for(file.string());
+  std::error_code none;  // what cannot be made is said when the file is
+  if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path(), none);
+}
+
 using Json = nlohmann::ordered_json;
 
 /// JSON of one labelled run; empty if it was stopped.
@@ -103,6 +111,7 @@ void bind_script(py::module_& module) {
       [](const std::string& case_name, const std::string& script, std::uint64_t seed, const py::dict& values,
          double seconds, const std::optional<std::filesystem::path>& recording) {
         require_seconds(seconds);
+        if (recording) require_recording(*recording);
         const Values texts = texts_of(values);
         Played played;
         run_until_interrupted([&](const std::function<bool()>& stop) {

@@ -4,7 +4,7 @@ import re
 
 
 class OstiumError(Exception):
-    """A file or a name that cannot be used. `file` and `line` say where, as far as it is known; else None."""
+    """A file or a name that cannot be used, or a file that cannot be written. `file` and `line` say where, as far as it is known; else None."""
 
     def __init__(self, message=""):
         super().__init__(message)

@@ -97,12 +97,14 @@ bool Connection::is_ours() const {
 
 void Connection::answer(beast::error_code error) {
   if (closed_) return;
-  if (error) return close();
+  const bool has_body = error == http::error::body_limit;
+  if (error && !has_body) return close();
   const auto& request = request_->get();
   const std::string target(request.target());
   if (!is_ours()) return reply(http::status::forbidden, "text/plain", "This server answers its own page only.\n");
   if (request.method() != http::verb::get && request.method() != http::verb::head)
     return reply(http::status::method_not_allowed, "text/plain", "expected GET\n");
+  if (has_body) return reply(http::status::bad_request, "text/plain", "expected no body\n");
   if (target == "/socket") {
     if (!websocket::is_upgrade(request))
       return reply(http::status::upgrade_required, "text/plain", "expected a WebSocket\n");
@@ -157,6 +159,11 @@ bool Connection::too_many() {
   return (allowed_ -= 1) < 0;
 }
 
+std::size_t Connection::viewers() const {
+  return static_cast<std::size_t>(std::ranges::count_if(
+      hub_.connections, [](const auto& other) { return other->is_in() && !other->is_trainer(); }));
+}
+
 bool Connection::let_in(const std::string& text) {
   const auto message = nlohmann::json::parse(text, nullptr, false);
   if (!message.is_object() || message.value("do", nlohmann::json()) != "hello") return false;
@@ -165,7 +172,7 @@ bool Connection::let_in(const std::string& text) {
   const std::string given = token->get<std::string>();
   if (same_token(given, hub_.settings.trainer_token))
     role_ = Role::trainer;
-  else if (same_token(given, hub_.settings.viewer_token))
+  else if (same_token(given, hub_.settings.viewer_token) && viewers() < hub_.settings.most_viewers)
     role_ = Role::viewer;
   else
     return false;

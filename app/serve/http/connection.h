@@ -40,6 +40,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
   void close();  ///< at once
   bool is_in() const { return role_.has_value(); }
   bool is_trainer() const { return role_ == Role::trainer; }
+  std::chrono::steady_clock::time_point born() const { return born_; }
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -52,6 +53,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
   void hear(beast::error_code error);
   bool let_in(const std::string& text);
   bool too_many();
+  std::size_t viewers() const;
   void write_next();
   void watch();
 
@@ -63,7 +65,8 @@ class Connection : public std::enable_shared_from_this<Connection> {
   asio::steady_timer timer_;
   bool is_socket_ = false, closed_ = false;
   std::optional<Role> role_;
-  Clock::time_point since_ = Clock::now(), writing_since_, allowed_at_ = Clock::now(), heard_at_ = Clock::now();
+  const Clock::time_point born_ = Clock::now();
+  Clock::time_point since_ = born_, writing_since_, allowed_at_ = Clock::now(), heard_at_ = Clock::now();
   double allowed_;  ///< messages that may come at once
   bool quiet_ = true;
   std::array<SharedMessage, newest_only_channels> newest_;

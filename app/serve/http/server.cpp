@@ -42,6 +42,8 @@ struct Server::Parts {
     names.push_back(own);
     if (address.is_loopback()) names.emplace_back("localhost");
     for (const std::string& name : names) hub.hosts.push_back(name + ":" + std::to_string(port));
+    constexpr int port_of_http = 80;  // which browsers leave out
+    if (port == port_of_http) hub.hosts.insert(hub.hosts.end(), names.begin(), names.end());
   }
 
   void accept() {
@@ -55,6 +57,7 @@ struct Server::Parts {
         });
         return;
       }
+      if (hub.connections.size() >= hub.settings.most_connections) end_oldest_stranger();
       if (hub.connections.size() < hub.settings.most_connections) {
         const auto connection = std::make_shared<Connection>(std::move(socket), hub);
         hub.connections.insert(connection);
@@ -62,6 +65,14 @@ struct Server::Parts {
       }
       accept();
     });
+  }
+
+  /// Whoever comes gets the place of the first that has said no hello, so that many who say nothing keep nobody out.
+  void end_oldest_stranger() {
+    std::shared_ptr<Connection> oldest;
+    for (const auto& connection : hub.connections)
+      if (!connection->is_in() && (!oldest || connection->born() < oldest->born())) oldest = connection;
+    if (oldest) oldest->close();
   }
 
   void send(Channel channel, const SharedMessage& message) {

@@ -49,7 +49,8 @@ struct ServerSettings {
   std::string trainer_token, viewer_token;
   std::vector<Page> pages;
   // Limits:
-  std::size_t most_connections = 48, message_bytes = 8192, most_waiting = 4000;
+  std::size_t most_connections = 48, most_viewers = 40;  ///< the rest is for pages and the trainer
+  std::size_t message_bytes = 8192, most_waiting = 4000;
   double messages_per_s = 120, burst = 240;
   double hello_s = 5, stall_s = 10, request_s = 10;
 };

@@ -71,6 +71,18 @@ void set_vessel(const std::string& case_or_mesh, vascular::LengthUnit unit, RunS
   setup.vessel = c.imported ? (file.parent_path() / c.name).string() : c.name;
 }
 
+namespace {
+
+std::string file_of(const data::ScriptTool& tool, const data::Script& script) {
+  try {
+    return data::instrument_file(tool.instrument, folder_of(script));
+  } catch (const data::LoadError& error) {
+    throw data::LoadError(fmt::format("{}:{}: {}: {}", script.file, tool.line, tool.name, error.what()));
+  }
+}
+
+}  // namespace
+
 void set_script(const data::Script& script, RunSetup& setup) {
   data::require_access(script, setup.access, setup.vessel);
   setup.script = script;
@@ -81,7 +93,7 @@ void set_script(const data::Script& script, RunSetup& setup) {
           fmt::format("{}:{}: a tool is called {}, as what --set gives beside tools; expected another "
                       "name",
                       script.file, tool.line, tool.name));
-    setup.tool_files.push_back(data::instrument_file(tool.instrument, folder_of(script)));
+    setup.tool_files.push_back(file_of(tool, script));
     setup.tool_texts.push_back(data::read_file(setup.tool_files.back()));
   }
   setup.drug_files = data::drug_files(), setup.drug_texts.clear();

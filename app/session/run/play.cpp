@@ -80,6 +80,7 @@ class DepthJudge {
 PlayReport play(ScriptedRun& run, const RunSetup& setup, const PlayOptions& options) {
   Recorder recorder(options.recorder, run.model, setup, save(run.hands).size());
   if (!options.recorder.continues) recorder.begin(run.state, run.hands);
+  if (options.begun) options.begun();
   TimeBins bins;
   PlayReport out;
   DepthJudge judge;

@@ -16,8 +16,9 @@ struct PlayOptions {
   /// true: one step per millisecond of clock time; after a slow step the next ones follow faster until it has caught
   /// up. false: as fast as possible, with the same result.
   bool real = false;
-  double seconds = 0;    ///< limit of simulated time; 0: none but the script's end
-  double give_up_s = 0;  ///< limit of clock time; 0: none
+  double seconds = 0;           ///< limit of simulated time; 0: none but the script's end
+  double give_up_s = 0;         ///< limit of clock time; 0: none
+  std::function<void()> begun;  ///< called once, when the recording has begun. May be empty
   /// Called at least every 0.1 s of simulated time, for progress. May be empty.
   std::function<void(const ScriptedRun&)> progress;
   std::shared_ptr<const Dosimeter> dosimeter;  ///< of the vessel, if shared by many runs; null: made if needed

@@ -36,9 +36,9 @@ std::shared_ptr<const Vessel> vessel_for(const RunSetup& setup, std::shared_ptr<
 void require_same_layout(const data::RecordingReader& r, const SessionModel& model) {
   const auto width = static_cast<int>(state_count(model));
   if (r.input_columns() != input_names(model) || (r.states() && r.state_width() != width))
-    throw data::LoadError(
-        fmt::format("{}: was written by {}, whose state or inputs are laid out otherwise; replay it with that",
-                    r.path(), r.software()));
+    throw data::LoadError(fmt::format(
+        "{}: was written by another build of {}, whose state or inputs are laid out otherwise; replay it with that",
+        r.path(), r.software()));
 }
 
 void require_same_step(const data::RecordingReader& r, const SessionModel& model) {

@@ -44,8 +44,9 @@ const std::vector<std::string>& access_names();
 Case read_case(const std::string& file, const std::string& text);
 Case load_case(const std::string& file);
 
-/// All cases of data/cases and those imported under a name (`imported_folder`).
-std::vector<Case> load_cases();
+/// All cases of data/cases and those imported under a name (`imported_folder`). Imported ones that cannot be read are
+/// left out; `unread` gets why.
+std::vector<Case> load_cases(std::vector<std::string>* unread = nullptr);
 
 /// By name, or by path: a case file or an imported case's folder. Throws LoadError; for an unknown name it lists the
 /// known ones.

@@ -1,4 +1,6 @@
 #include <fmt/format.h>
+#include <pwd.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -149,22 +151,26 @@ Case load_case(const std::string& file) {
   return case_of(load_json(file));
 }
 
-std::vector<Case> load_cases() {
+std::vector<Case> load_cases(std::vector<std::string>* unread) {
   const fs::path folder = fs::path(data_folder()) / "cases";
   std::vector<fs::path> files;
   std::error_code error;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, error))
     if (entry.path().extension() == ".json") files.push_back(entry.path());
   if (files.empty()) throw LoadError(folder.string() + ": has no case; expected a folder with at least one NAME.json");
-  for (const fs::directory_entry& entry : fs::directory_iterator(imported_folder(), error))
-    if (const fs::path file = case_file_in(entry.path()); is_file(file)) files.push_back(file);
   std::vector<Case> cases;
   for (const fs::path& file : files) cases.push_back(load_case(file.string()));
+  for (const fs::directory_entry& entry : fs::directory_iterator(imported_folder(), error)) try {
+      if (const fs::path file = case_file_in(entry.path()); is_file(file)) cases.push_back(load_case(file.string()));
+    } catch (const LoadError& problem) {
+      if (unread) unread->emplace_back(problem.what());
+    }
   std::sort(cases.begin(), cases.end(), [](const Case& a, const Case& b) { return a.name < b.name; });
   return cases;
 }
 
 std::string case_file(const std::string& name) {
+  if (name.empty()) throw LoadError("a case has no name; expected that of a case (`ostium cases`), its file or folder");
   const fs::path shipped = fs::path(data_folder()) / "cases" / (name + ".json");
   for (const fs::path& file :
        {shipped, case_file_in(fs::path(imported_folder()) / name), case_file_in(name), fs::path(name)})
@@ -189,9 +195,11 @@ std::string imported_folder() {
     return std::string(value ? value : "");
   };
   if (!set("OSTIUM_CASES").empty()) return set("OSTIUM_CASES");
-  const fs::path home =
-      set("XDG_DATA_HOME").empty() ? fs::path(set("HOME")) / ".local" / "share" : fs::path(set("XDG_DATA_HOME"));
-  return (home / "ostium" / "cases").string();
+  if (!set("XDG_DATA_HOME").empty()) return (fs::path(set("XDG_DATA_HOME")) / "ostium" / "cases").string();
+  std::string home = set("HOME");
+  if (const passwd* user = home.empty() ? getpwuid(getuid()) : nullptr) home = user->pw_dir;
+  if (home.empty()) home = "/";  // never wherever a command happens to run
+  return (fs::path(home) / ".local" / "share" / "ostium" / "cases").string();
 }
 
 Case with_person(const Case& c, std::uint64_t seed) {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "data/identification/curves/kinds.h"
@@ -94,6 +95,7 @@ void add_units(const JsonValue& root, std::size_t r, std::vector<Fault>& out) {
            fmt::format("multiply by {:g}", unit.factor),
            nullptr,
            nullptr,
+           0,
            {}},
           copy, out);
       value = before;
@@ -117,6 +119,7 @@ void add_swaps(const JsonValue& root, std::size_t r, std::vector<Fault>& out) {
          "exchange them",
          nullptr,
          nullptr,
+         0,
          {}},
         copy, out);
   }
@@ -154,11 +157,70 @@ void add_order(const JsonValue& root, std::size_t r, std::vector<Fault>& out) {
        runs_on ? "reverse them" : "sort them by time_s",
        nullptr,
        nullptr,
+       0,
        {}},
       copy, out);
 }
 
+/// Multiplies a column of all runs; false if one has none of it.
+bool multiply_all(JsonValue& root, const std::string& key, double factor) {
+  std::size_t with = 0;
+  std::vector<JsonValue>& runs = runs_of(root)->items;
+  for (JsonValue& run : runs)
+    for (auto& [name, value] : run.members)
+      if (name == key && numeric(value)) multiply(value, factor), ++with;
+  return with == runs.size();
+}
+
+/// What was measured sample by sample: the columns of the first run.
+std::vector<std::string> columns_of(const JsonValue& root) {
+  std::vector<std::string> out;
+  for (const auto& [key, value] : root.find("runs")->items.front().members)
+    if (numeric(value) && value.type == JsonValue::Type::array) out.push_back(key);
+  return out;
+}
+
+/// Numbers that are made smaller lie closer together: each is as much less likely as it was. Those that nothing
+/// predicts, but that are given, cost nothing.
+double density_cost(const Set& set, const std::string& key, double factor) {
+  double count = 0;
+  for (const Run& run : set.runs())
+    for (const Channel& channel : run.channels)
+      if (channel.key == key) count += static_cast<double>(channel.measured.size());
+  return -2 * count * std::log(std::fabs(factor));
+}
+
 }  // namespace
+
+std::vector<Fault> mends_of_all(const JsonValue& root) {
+  std::vector<Fault> out;
+  std::vector<std::string> ids;
+  for (const JsonValue& run : root.find("runs")->items) ids.push_back(id_of(run));
+  const std::vector<std::string> columns = columns_of(root);
+  const auto try_one = [&](const std::string& id, const std::vector<std::string>& keys, double factor,
+                           const std::string& what, const std::string& mend) {
+    JsonValue copy = root;
+    bool all = true;
+    for (const std::string& key : keys) all = multiply_all(copy, key, factor) && all;
+    const std::size_t before = out.size();
+    if (all) add({id, ids, what, mend, nullptr, nullptr, 0, {}}, copy, out);
+    if (out.size() == before) return;
+    constexpr double of_two = 6;  // strong evidence: often one column alone explains it as well
+    out[before].paid = keys.size() > 1 ? of_two : density_cost(*out[before].set, keys[0], factor);
+  };
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    const std::string& key = columns[i];
+    for (const OtherUnit& unit : other_units)
+      if (in_unit(key, unit.suffix) && unit.factor != 1)
+        try_one("unit_error", {key}, unit.factor, fmt::format("{} of all runs is in {}", key, unit.name),
+                fmt::format("multiply by {:g}", unit.factor));
+    try_one("sign_error", {key}, -1, fmt::format("{} of all runs has the other sign", key), "multiply by -1");
+    for (std::size_t j = i + 1; j < columns.size(); ++j)
+      try_one("sign_error", {key, columns[j]}, -1,
+              fmt::format("{} and {} of all runs have the other sign", key, columns[j]), "multiply by -1");
+  }
+  return out;
+}
 
 std::vector<Fault> left_out(const std::shared_ptr<const Set>& set) {
   std::vector<Fault> out;
@@ -169,6 +231,7 @@ std::vector<Fault> left_out(const std::shared_ptr<const Set>& set) {
                 "look at it, or make it again; it is left out",
                 set,
                 nullptr,
+                0,
                 {}};
     for (std::size_t k = 0; k < set->runs().size(); ++k)
       fault.chosen.emplace_back(set->runs()[k].channels.size(), k != r);

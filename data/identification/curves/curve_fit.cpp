@@ -201,7 +201,8 @@ Model Fit::run(const std::vector<std::size_t>& effects, const Model* near) const
   VectorXd r;
   if (!residuals(from, r)) {
     from = prior;
-    if (!residuals(from, r)) throw LoadError(set_.file + ": the model has no curves for what is declared");
+    if (!residuals(from, r))
+      throw LoadError(set_.file + ": the model has no curves for what is declared; is a unit or a place wrong?");
   }
   descent.residuals = static_cast<int>(r.size());
   std::vector<LeastSquaresResult> found;

@@ -86,6 +86,21 @@ bool vanishes(const Model& model, std::size_t run) {
   return true;
 }
 
+/// Whether the noise leaves something of every channel: else it agrees with whatever predicts nothing there.
+bool stands_above_noise(const Set& set) {
+  constexpr double least = 5;  // times the noise
+  for (std::size_t c = 0; c < set.runs().front().channels.size(); ++c) {
+    double most = 0;
+    for (const Run& run : set.runs()) {
+      const Channel& channel = run.channels[c];
+      if (channel.sigma.size() == 0) return true;  // the noise is what neighbours do not share, in the same unit
+      most = std::max(most, channel.measured.cwiseAbs().cwiseQuotient(channel.sigma).maxCoeff());
+    }
+    if (most < least) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 Search::Search(std::shared_ptr<const Set> set, const JsonValue& root, const CurveOptions& options)
@@ -223,24 +238,54 @@ void Search::add_laws(std::vector<Candidate>& list, const Candidate& declared) c
   }
 }
 
-/// Against the noise as it was before effects grew: what they leave of wrong data is no noise.
+/// The set with a mistake of its data mended; none: nothing like it can be. Against the noise as it was before effects
+/// grew: what they leave of wrong data is no noise.
+std::optional<Candidate> Search::mended(const Fault& fault) const {
+  Candidate c;
+  c.name = fault.what, c.effects = {fault.id}, c.set = fault.set, c.fault = fault;
+  try {
+    // From what is declared: a fit to data that are wrong is no place to begin at.
+    c.model = fit(*fault.set, noise_known_, fault).run({}, nullptr);
+  } catch (const LoadError&) {
+    return {};
+  }
+  // What was chosen among many is paid for: one of so many runs, and of so many mends.
+  c.paid = fault.paid + 2 * std::log(static_cast<double>(set_->runs().size())) + 2 * std::log(20.0);
+  return c;
+}
+
+/// Whether one leaves nothing but noise: then nothing further need be looked for, and what effects left beside it is no
+/// noise.
+bool Search::add_faults_of_all(std::vector<Candidate>& list, const Candidate& declared) {
+  say("all runs in another unit, or of the other sign");
+  bool enough = false;
+  sort_by_bic(list);
+  std::vector<Candidate> mends;
+  for (const Fault& fault : mends_of_all(root_)) {
+    if (!stands_above_noise(*fault.set)) continue;
+    auto c = mended(fault);
+    if (!c || c->bic() > declared.bic() - strong) continue;
+    judge(*c, declared, noise_known_);
+    enough |= c->is_noise && !c->at_an_edge;
+    mends.push_back(std::move(*c));
+  }
+  if (enough) {
+    noise_ = noise_known_;
+    if (list.size() > looked_at) list.resize(looked_at);
+    for (Candidate& c : list) c.model = fit(*set_, noise_).run(effects_of(c.model), &c.model);
+  }
+  list.insert(list.end(), mends.begin(), mends.end());
+  return enough;
+}
+
 void Search::add_faults(std::vector<Candidate>& list, const Candidate& declared) const {
   const std::size_t runs = set_->runs().size();
   if (runs < 3) return;
-  const auto tried = [&](const Fault& fault) {
-    Candidate c;
-    c.name = fault.what, c.effects = {fault.id}, c.set = fault.set, c.fault = fault;
-    // From what is declared: a fit to data that are wrong is no place to begin at.
-    c.model = fit(*fault.set, noise_known_, fault).run({}, nullptr);
-    // What was chosen among many is paid for: one of so many runs, and of so many mends.
-    c.paid = 2 * std::log(static_cast<double>(runs)) + 2 * std::log(20.0);
-    return c;
-  };
   say("one run left out at a time");
   std::vector<std::pair<double, std::size_t>> without;
   std::vector<Candidate> outliers;
   for (const Fault& fault : left_out(set_)) {
-    outliers.push_back(tried(fault));
+    outliers.push_back(*mended(fault));
     without.emplace_back(outliers.back().model.per_freedom(), outliers.size() - 1);
   }
   std::sort(without.begin(), without.end());
@@ -248,8 +293,9 @@ void Search::add_faults(std::vector<Candidate>& list, const Candidate& declared)
   // Mends are sought where leaving a run out helps, and among swaps of it, which leave two wrong.
   for (std::size_t k = 0; k < std::min<std::size_t>(2, runs); ++k)
     for (const Fault& fault : mends_of(root_, without[k].second)) {
-      Candidate c = tried(fault);
-      if (c.bic() < declared.bic() - strong && !vanishes(c.model, without[k].second)) list.push_back(std::move(c));
+      auto c = mended(fault);
+      if (c && c->bic() < declared.bic() - strong && !vanishes(c->model, without[k].second))
+        list.push_back(std::move(*c));
     }
   // A run that is left out counts as if each of its samples had a number of its own, up to a fiftieth.
   Candidate& outlier = outliers[worst];
@@ -265,8 +311,10 @@ void Search::look(CurveExplanation& out) {
   if (options_.tries.empty()) {
     grow(list, out.declared);
     prune(list);
-    if (!out.declared.is_noise) add_laws(list, out.declared);
-    if (!out.declared.is_noise) add_faults(list, out.declared);
+    if (!out.declared.is_noise && !add_faults_of_all(list, out.declared)) {
+      add_laws(list, out.declared);
+      add_faults(list, out.declared);
+    }
   }
   for (const std::vector<std::string>& ids : options_.tries)
     for (const std::vector<std::size_t>& effects : combinations(*set_, ids))

@@ -23,6 +23,8 @@ class Search {
   /// Laws that are learned from the data, where no effect alone leaves only noise; with the best model where they leave
   /// more than noise.
   void add_laws(std::vector<Candidate>& list, const Candidate& declared) const;
+  std::optional<Candidate> mended(const Fault& fault) const;
+  bool add_faults_of_all(std::vector<Candidate>& list, const Candidate& declared);
   void add_faults(std::vector<Candidate>& list, const Candidate& declared) const;
   void judge(Candidate& c, const Candidate& declared, const Noise& noise) const;
   void say(const std::string& what) const;

@@ -57,6 +57,35 @@ TEST(Server, AnswersItsOwnPageOnly) {
   for (const char* path : {"/nowhere", "/../etc/passwd", "/%2e%2e/etc/passwd", "/a.js/", "//a.js", "/index.html?x"})
     EXPECT_NE(get(std::string("GET ") + path).find(" 404 "), std::string::npos) << path;
   EXPECT_NE(get("POST /", "Content-Length: 0\r\n").find(" 405 "), std::string::npos);
+  EXPECT_NE(get("POST /", "Content-Length: 5\r\n").find(" 405 "), std::string::npos);
+  EXPECT_NE(get("GET /", "Content-Length: 5\r\n").find(" 400 "), std::string::npos);
+}
+
+TEST(Server, ManyWhoSayNothingKeepNobodyOut) {
+  Served s;
+  std::vector<std::unique_ptr<Client>> strangers, viewers;
+  for (int i = 0; i < 60; ++i) strangers.push_back(std::make_unique<Client>(s.server.port()));
+  Client comes(s.server.port());
+  EXPECT_TRUE(comes.come_in(trainer));
+  EXPECT_TRUE(strangers.front()->is_ended(2000));
+  for (int i = 0; i < 50; ++i) viewers.push_back(std::make_unique<Client>(s.server.port()));
+  int inside = 0;
+  for (const auto& one : viewers) inside += one->come_in(viewer);
+  EXPECT_EQ(inside, 40);
+  Client again(s.server.port());
+  EXPECT_TRUE(again.come_in(trainer)) << "in a room full of viewers";
+}
+
+TEST(Server, IsFoundAtThePortThatBrowsersLeaveOut) {
+  ServerSettings http;
+  http.port = 80;
+  std::unique_ptr<Served> s;
+  try {
+    s = std::make_unique<Served>(http);
+  } catch (const std::runtime_error& error) {
+    GTEST_SKIP() << error.what();
+  }
+  EXPECT_NE(Client(80).request("GET /", "", "127.0.0.1").find(" 200 "), std::string::npos);
 }
 
 TEST(Server, OpensASocketToItsOwnPageOnly) {

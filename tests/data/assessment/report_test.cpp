@@ -71,6 +71,15 @@ TEST(ScoreList, IsTickedByWhatTheRecordSays) {
   EXPECT_EQ(score(list, none, metrics_of(none))[0].holds, Ticked::not_seen) << "nothing was inflated";
 }
 
+TEST(ScoreList, AWayThroughTheVesselsIsInCentimetresAsListsSayIt) {
+  ScoreList list = read_score_list("folder/small.json", small);
+  list.items[2].check = ScoreCheck{};
+  list.items[2].check->metric = "tip_reached_mm", list.items[2].check->least = 790;
+  const auto said = [&](double mm) { return score(list, record_with({}), {{"tip_reached_mm", mm, "mm"}})[2].value; };
+  EXPECT_EQ(said(822.4), "82.2 cm");
+  EXPECT_EQ(said(3.2), "3.2 mm");
+}
+
 TEST(ScoreList, MistakesAreNamed) {
   const auto says = [](const std::string& what, const std::string& words) {
     EXPECT_NE(what.find(words), std::string::npos) << what;

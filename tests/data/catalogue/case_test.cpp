@@ -71,6 +71,32 @@ TEST(Case, TheTenOfTheProductAreThere) {
   unsetenv("OSTIUM_CASES");
 }
 
+TEST(Case, OneThatCannotBeReadHidesNoOther) {
+  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "ostium-a-bad-case";
+  std::filesystem::create_directories(folder / "bad");
+  std::ofstream(folder / "bad/bad.json") << "{";
+  setenv("OSTIUM_CASES", folder.c_str(), 1);
+  std::vector<std::string> unread;
+  EXPECT_EQ(load_cases(&unread).size(), 10U);
+  ASSERT_EQ(unread.size(), 1U);
+  EXPECT_NE(unread[0].find("bad.json:1"), std::string::npos) << unread[0];
+  try {
+    find_case("nowhere");
+    ADD_FAILURE() << "accepted";
+  } catch (const LoadError& error) {
+    EXPECT_NE(std::string(error.what()).find("there is no case"), std::string::npos) << error.what();
+  }
+  unsetenv("OSTIUM_CASES");
+  std::filesystem::remove_all(folder);
+}
+
+TEST(Case, WithoutAHomeImportedOnesAreThoseOfTheUser) {
+  const std::string home = std::getenv("HOME") ? std::getenv("HOME") : "";
+  unsetenv("HOME");
+  EXPECT_TRUE(std::filesystem::path(imported_folder()).is_absolute()) << imported_folder();
+  if (!home.empty()) setenv("HOME", home.c_str(), 1);
+}
+
 TEST(Case, ALesionThatDoesNotFitIsRefusedWithWhatExists) {
   EXPECT_EQ(case_refusal("A test", "Another test"), "accepted");
   for (const char* length_mm : {"1e-300", "0.4", "2.9", "1e300"})

@@ -69,6 +69,31 @@ TEST(Curves, ARunInAnotherUnitIsNamedWithItsMend) {
   EXPECT_NE(x.best().fault->what.find("gram-force"), std::string::npos) << x.best().fault->what;
 }
 
+/// A set whose column is multiplied in all runs.
+CurveExplanation with_column(const char* kind, const std::string& key, double factor) {
+  auto file = nlohmann::ordered_json::parse(made(kind, "clean", 0, 101).json);
+  for (auto& run : file["runs"])
+    for (auto& value : run[key]) value = value.get<double>() * factor;
+  return explained(file.dump());
+}
+
+TEST(Curves, AColumnOfAllRunsInAnotherUnitOrOfTheOtherSignIsNamed) {
+  struct {
+    const char *kind, *key;
+    double factor;
+    const char *id, *what;
+  } const wrong[] = {{"three_point_bend", "force_N", 101.972, "unit_error", "force_N of all runs is in gram-force"},
+                     {"three_point_bend", "force_N", -1, "sign_error", "force_N of all runs has the other sign"},
+                     {"torque_response", "distal_deg", -1, "sign_error", "distal_deg of all runs has the other sign"}};
+  for (const auto& [kind, key, factor, id, what] : wrong) {
+    const CurveExplanation x = with_column(kind, key, factor);
+    EXPECT_EQ(to_string(x.verdict), "effect") << what;
+    ASSERT_TRUE(x.best().fault) << what;
+    EXPECT_EQ(x.best().fault->id, id);
+    EXPECT_EQ(x.best().fault->what, what);
+  }
+}
+
 TEST(Curves, ABeamOfSmallDeflectionIsEulersOwn) {
   three_point_bend::Setup setup;
   setup.EI_N_m2 = {40e-6}, setup.radius_m = 0.18e-3;
@@ -138,6 +163,16 @@ TEST_F(Tabled, ALastLineWithoutAnEndIsDoubted) {
   ASSERT_FALSE(x.warnings.empty());
   EXPECT_NE(x.warnings[0].find("run 1.csv:"), std::string::npos) << x.warnings[0];
   EXPECT_NE(x.warnings[0].find("may have been cut"), std::string::npos) << x.warnings[0];
+}
+
+TEST_F(Tabled, WhatSpreadsheetsLeaveEmptyIsNoPartOfThem) {
+  const auto plain = curves::read_set(read());
+  std::string wider;
+  for (const char c : table_) wider += c == '\n' ? std::string(";;\n") : std::string(1, c);
+  table_ = wider.replace(wider.find(" machine;;"), 10, " machine") + ";;;;\n;;;;\n";
+  EXPECT_EQ(curves::read_set(read())->runs()[0].channels[0].measured, plain->runs()[0].channels[0].measured);
+  table_ += "1;2;3;4;\n";
+  EXPECT_THROW(read(), LoadError) << "a number in a column without a name";
 }
 
 TEST_F(Tabled, AreReadAsTheListsThatTheyStandFor) {

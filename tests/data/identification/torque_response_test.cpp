@@ -143,6 +143,11 @@ TEST(TorqueResponse, BadInputIsNamed) {
   expect_words(refused([](Json& f) { f["runs"][3]["id"] = "t1"; }), {"runs[3].id", "runs[1]"});
   expect_words(refused([](Json& f) { f["noise"]["distal_deg"] = -1; }), {"noise.distal_deg"});
   expect_words(refused([](Json& f) {
+                 for (auto& angle : f["runs"][1]["distal_deg"])
+                   angle = std::remainder(angle.template get<double>(), 360.0);
+               }),
+               {"runs[1].distal_deg", "began anew"});
+  expect_words(refused([](Json& f) {
                  for (Json& run : f["runs"])
                    for (Json& turned : run["proximal_deg"]) turned = turned.get<double>() * degree;
                }),

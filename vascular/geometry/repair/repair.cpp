@@ -110,7 +110,7 @@ class Mender {
       return sliver || twice;
     });
     note("triangle without area dropped", static_cast<int>(slivers.size()), slivers);
-    note("triangle that was there twice dropped", static_cast<int>(doubles.size()), doubles);
+    note("doubled triangle dropped", static_cast<int>(doubles.size()), doubles);
   }
 
   void smooth_noise() {

@@ -100,6 +100,18 @@ VectorXd sigma_of(const JsonObject& noise, const std::string& key, Eigen::Index 
   return sigma ? VectorXd(VectorXd::Constant(samples, *sigma)) : VectorXd();
 }
 
+/// An angle that leaps by more than half a turn against the way in which the other one goes begins anew at a full turn.
+void suspect_wrapped(const JsonObject& entry, const char* key, const VectorXd& angle_deg, const VectorXd& other_deg) {
+  for (Eigen::Index k = 1; k < angle_deg.size(); ++k) {
+    const double by = angle_deg[k] - angle_deg[k - 1], other = other_deg[k] - other_deg[k - 1];
+    if (by * other < 0 && std::fabs(by) > 180 && std::fabs(other) < 180)
+      entry[key].refuse(
+          fmt::format("angles that go on beyond a turn; from {:g} to {:g} they leap back, so they look as if they "
+                      "began anew at 180 or 360",
+                      angle_deg[k - 1], angle_deg[k]));
+  }
+}
+
 curves::Run read_run(const JsonValue& value, const JsonObject& noise, double length_mm, Setup& setup,
                      const std::vector<curves::Run>& others) {
   const JsonObject entry(value, run_keys);
@@ -111,6 +123,8 @@ curves::Run read_run(const JsonValue& value, const JsonObject& noise, double len
   curves::Channel distal{"distal_deg", "distal angle", "deg", {}, {}}, torque{"torque_Nmm", "torque", "N mm", {}, {}};
   distal.measured = curves::read_samples_like(entry, "distal_deg", run.along, "proximal_deg");
   torque.measured = curves::read_samples_like(entry, "torque_Nmm", run.along, "proximal_deg");
+  suspect_wrapped(entry, "distal_deg", distal.measured, run.along);
+  suspect_wrapped(entry, "proximal_deg", run.along, distal.measured);
   distal.sigma = sigma_of(noise, "distal_deg", run.samples());
   torque.sigma = sigma_of(noise, "torque_Nmm", run.samples());
   run.along_label = "proximal angle", run.along_unit = "deg";
