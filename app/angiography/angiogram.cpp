@@ -142,12 +142,12 @@ std::vector<double> Angiogram::darkness(const std::vector<int>& cells, const vas
   fluoro::ImagerState with;
   draw(imager_, with);
   // The bodies stay where they are; only the iodine is removed.
-  fluoro::Contrast& contrast = scene_.lumen().contrast;
-  const fluoro::Contrast kept = contrast;
-  contrast.iodine_kg_m3.setZero(), contrast.along_kg_m2.setZero();
+  fluoro::Body* const lumen = scene_.lumen();
+  const fluoro::Contrast kept = lumen ? lumen->contrast : fluoro::Contrast{};
+  if (lumen) lumen->contrast.iodine_kg_m3.setZero(), lumen->contrast.along_kg_m2.setZero();
   mask_ = {};
   draw(mask_imager_, mask_);
-  contrast = kept;
+  if (lumen) lumen->contrast = kept;
   return read(with.lag.shown, mask_.lag.shown, cells, state);
 }
 

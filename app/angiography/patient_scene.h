@@ -1,6 +1,7 @@
 #pragma once
 /// A patient under X-rays: thorax, lumen and its twigs as bodies, moved by heartbeat and breath, with the iodine in the
 /// vessels.
+#include "app/angiography/lumen_body.h"
 #include "app/angiography/twig_body.h"
 #include "fluoro/matter/scene.h"
 #include "vascular/contrast/opacity.h"
@@ -25,12 +26,11 @@ class PatientScene {
   const fluoro::Scene& at(const vascular::PhysiologyState& state, std::span<const double> occupied_m,
                           double breath_depth = 0, std::span<const Eigen::Vector3d> aside_P = {});
   fluoro::Scene& scene() { return scene_; }
-  fluoro::Body& lumen() { return scene_.moving[thorax_->size()]; }
+  fluoro::Body* lumen() { return lumen_.empty() ? nullptr : &scene_.moving[own_]; }  ///< null: nothing is filled
   const vascular::LumenMap& map() const { return map_; }
   const vascular::WallShape& shape() const { return shape_; }
 
  private:
-  void set_still_lumen();
   void add_twigs(const vascular::LumenMoment& moment);
 
   const vascular::Patient& patient_;
@@ -39,9 +39,10 @@ class PatientScene {
   vascular::WallShape shape_;
   std::shared_ptr<const std::vector<vascular::XrayBody>> thorax_;  ///< the thorax bodies that move
   bool breathes_ = false;
+  LumenBody lumen_;
   TwigBody twigs_;
   fluoro::Scene scene_;
-  std::size_t own_ = 0;  ///< number of the patient's bodies; added ones follow
+  std::size_t own_ = 0;  ///< number of the thorax bodies among those; what is filled and what is added follow
   vascular::OpacityScratch scratch_;
 };
 

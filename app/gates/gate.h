@@ -70,6 +70,7 @@ std::vector<data::GateResult> xray_wedge(bool quick);
 std::vector<data::GateResult> xray_scatter(bool quick);
 std::vector<data::GateResult> xray_noise(bool quick);
 std::vector<data::GateResult> xray_edge(bool quick);
+std::vector<data::GateResult> xray_glare(bool quick);
 std::vector<data::GateResult> xray_lag(bool quick);
 std::vector<data::GateResult> xray_stenosis(bool quick);
 

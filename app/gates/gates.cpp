@@ -36,6 +36,7 @@ const std::vector<Gate>& gates() {
       {"xray-scatter", "scatter behind slabs, against photon transport", xray_scatter},
       {"xray-noise", "noise behind water, against counting statistics", xray_noise},
       {"xray-edge", "width of a slanted edge, against the blur that was set", xray_edge},
+      {"xray-glare", "the veil in an opaque plate's shadow, against a Gaussian's tail", xray_glare},
       {"xray-lag", "a wire that appears, against the step response", xray_lag},
       {"xray-stenosis", "a 60 % stenosis measured back from the picture", xray_stenosis},
   };

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <vector>
 
+#include "fluoro/base/lanes.h"
+
 namespace ostium::fluoro {
 
 using Eigen::Index;
@@ -74,6 +76,15 @@ void gaussian_blur(Plane& plane, double sigma_pixels, Beyond beyond, Plane& scra
   const std::vector<float> weights = gaussian(sigma_pixels);
   const Index reach = static_cast<Index>(weights.size()) - 1, rows = plane.rows(), columns = plane.cols();
   scratch.resize(rows, columns);
+  const auto blur_line = [&](auto&& at, float* to) {  // at(i, column): the line, or the pixel, i away
+    for (Index column = 0; column < columns; column += lanes) {
+      const int here = static_cast<int>(std::min<Index>(lanes, columns - column));
+      Floats sum = weights[0] * load(at(0, column), here);
+      for (Index i = 1; i <= reach; ++i)
+        sum += weights[std::size_t(i)] * (load(at(-i, column), here) + load(at(i, column), here));
+      store(sum, to + column, here);
+    }
+  };
   Eigen::Array<float, 1, Eigen::Dynamic> padded = Eigen::Array<float, 1, Eigen::Dynamic>::Zero(columns + 2 * reach);
   for (Index row = 0; row < rows; ++row) {
     padded.segment(reach, columns) = plane.row(row);
@@ -81,21 +92,17 @@ void gaussian_blur(Plane& plane, double sigma_pixels, Beyond beyond, Plane& scra
       padded.head(reach).setConstant(plane(row, 0));
       padded.tail(reach).setConstant(plane(row, columns - 1));
     }
-    scratch.row(row) = weights[0] * padded.segment(reach, columns);
-    for (Index i = 1; i <= reach; ++i)
-      scratch.row(row) +=
-          weights[std::size_t(i)] * (padded.segment(reach - i, columns) + padded.segment(reach + i, columns));
+    blur_line([&](Index i, Index column) { return padded.data() + reach + column + i; }, scratch.row(row).data());
   }
+  padded.setZero();  // a row beyond
+  std::vector<const float*> around(static_cast<std::size_t>(2 * reach + 1));
   for (Index row = 0; row < rows; ++row) {
-    plane.row(row) = weights[0] * scratch.row(row);
-    for (Index i = 1; i <= reach; ++i) {
-      const auto add = [&](Index from) {
-        if (beyond == Beyond::same) from = std::clamp<Index>(from, 0, rows - 1);
-        if (from >= 0 && from < rows) plane.row(row) += weights[std::size_t(i)] * scratch.row(from);
-      };
-      add(row - i);
-      add(row + i);
+    for (Index i = -reach; i <= reach; ++i) {
+      const Index from = beyond == Beyond::same ? std::clamp<Index>(row + i, 0, rows - 1) : row + i;
+      around[static_cast<std::size_t>(reach + i)] = from >= 0 && from < rows ? scratch.row(from).data() : padded.data();
     }
+    blur_line([&](Index i, Index column) { return around[static_cast<std::size_t>(reach + i)] + column; },
+              plane.row(row).data());
   }
 }
 

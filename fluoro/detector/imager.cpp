@@ -51,6 +51,7 @@ FrameReport Imager::frame(const FrameInput& in, ImagerState& state) {
                  .swank = model_.detector.swank},
                 counted_);
   gaussian_blur(counted_, model_.detector_blur_m / pixel_m, Beyond::same, scratch_);
+  add_glare(model_.glare, in.view.field_m, counted_, scratch_);
   state.lag.add(counted_, in.programme.lag);
   ++state.frame;
   return report;

@@ -1,10 +1,11 @@
 #pragma once
-/// From a scene to the detector's picture: path lengths, attenuation, scatter, noise, blur, lag. An imager belongs to
-/// one thread; it draws in that thread and starts no other.
+/// From a scene to the detector's picture: path lengths, attenuation, scatter, noise, blur, glare, lag. An imager
+/// belongs to one thread; it draws in that thread and starts no other.
 #include <optional>
 
 #include "fluoro/detector/attenuation.h"
 #include "fluoro/detector/exposure.h"
+#include "fluoro/detector/glare.h"
 #include "fluoro/detector/lag.h"
 #include "fluoro/detector/noise.h"
 
@@ -14,6 +15,7 @@ namespace ostium::fluoro {
 struct ImagerModel {
   Detector detector;
   ScatterKernel scatter;
+  GlareKernel glare;
   double grid_transmission = 0.7;    ///< of primary radiation
   double focal_spot_m = 0.6e-3;      ///< blur grows with the magnification of the isocentre
   double detector_blur_m = 0.16e-3;  ///< standard deviation of the scintillator's light: MTF 0.6 at 1/mm

@@ -118,9 +118,10 @@ class GlRenderer final : public PathLengthRenderer, OpenGl {
   void read_back(PathLengths& out) {
     rgba_.resize(4, Eigen::Index(pixels_) * pixels_);
     glReadPixels(0, 0, pixels_, pixels_, GL_RGBA, GL_FLOAT, rgba_.data());
+    Plane* const planes[] = {&out.soft_m(), &out.bone_m(), &out.iodine_kg_m2(), &out.unmatched()};
     for (int row = 0; row < pixels_; ++row)  // GL counts rows from the bottom
-      out.pixels().middleCols(Eigen::Index(row) * pixels_, pixels_) +=
-          rgba_.middleCols(Eigen::Index(pixels_ - 1 - row) * pixels_, pixels_);
+      for (int i = 0; i < 4; ++i)
+        planes[i]->row(row) += rgba_.row(i).segment(Eigen::Index(pixels_ - 1 - row) * pixels_, pixels_);
   }
 
   GLint uniform(const char* name) const { return glGetUniformLocation(program_, name); }
@@ -128,7 +129,7 @@ class GlRenderer final : public PathLengthRenderer, OpenGl {
   GLuint program_ = 0;
   int pixels_ = 0;
   Eigen::Matrix3Xf contrast_;
-  PathLengths::Pixels rgba_;
+  Eigen::Array<float, 4, Eigen::Dynamic> rgba_;
 };
 
 }  // namespace

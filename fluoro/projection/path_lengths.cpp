@@ -14,21 +14,14 @@ Plane ray_stretch(const View& view) {
   return out;
 }
 
-PathLengths::PathLengths(int pixels) : side_(pixels), pixels_(Pixels::Zero(4, Eigen::Index(pixels) * pixels)) {}
-
 Leak find_leak(const PathLengths& lengths) {
-  const Eigen::Array4f limit(leak_m, leak_m, leak_m * leak_iodine_kg_m3, 0);
-  Eigen::Array4f least = Eigen::Array4f::Zero();
-  float most_unmatched = 0;
-  for (const auto& pixel : lengths.pixels().colwise()) {
-    least = least.min(pixel);
-    most_unmatched = std::max(most_unmatched, std::fabs(pixel[3]));
-  }
+  const auto leaks = lengths.soft_m() < leak_m || lengths.bone_m() < leak_m ||
+                     lengths.iodine_kg_m2() < leak_m * leak_iodine_kg_m3 || lengths.unmatched() != 0;
   Leak leak;
-  if (!((least < limit).any() || most_unmatched > 0)) return leak;  // the usual case
-  leak.worst_m = std::min({least[0], least[1], least[2] / leak_iodine_kg_m3});
-  for (const auto& pixel : lengths.pixels().colwise())
-    if ((pixel < limit).any() || pixel[3] != 0) ++leak.pixels;
+  leak.pixels = leaks.count();
+  if (leak)
+    leak.worst_m = std::min({0.0f, lengths.soft_m().minCoeff(), lengths.bone_m().minCoeff(),
+                             lengths.iodine_kg_m2().minCoeff() / leak_iodine_kg_m3});
   return leak;
 }
 

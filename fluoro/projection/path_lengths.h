@@ -1,5 +1,6 @@
 #pragma once
 /// How much of each attenuator a ray crosses: the sum of exit minus entry depths over all closed surfaces.
+#include <array>
 #include <initializer_list>
 #include <memory>
 #include <span>
@@ -23,37 +24,26 @@ struct View {
 Plane ray_stretch(const View& view);
 
 /// Along each pixel's ray, measured in depth, that is, projected on the direction from the source to the detector's
-/// middle; the length along the ray is ray_stretch times that. A pixel's four numbers are adjacent in memory, so that a
-/// triangle touches it once.
+/// middle; the length along the ray is ray_stretch times that.
 class PathLengths {
  public:
-  using Pixels = Eigen::Array<float, 4, Eigen::Dynamic>;
-  template <class Floats>
-  using View = Eigen::Map<Floats, 0, Eigen::Stride<Eigen::Dynamic, 4>>;
-
-  explicit PathLengths(int pixels = 0);  ///< along a side; all zero
-
-  View<Plane> soft_m() { return plane<Plane>(*this, 0); }  ///< thickness of the two basis materials
-  View<Plane> bone_m() { return plane<Plane>(*this, 1); }
-  View<Plane> iodine_kg_m2() { return plane<Plane>(*this, 2); }  ///< iodine, by mass
-  View<Plane> unmatched() { return plane<Plane>(*this, 3); }     ///< exits minus entries: 0 for closed surfaces
-  View<const Plane> soft_m() const { return plane<const Plane>(*this, 0); }
-  View<const Plane> bone_m() const { return plane<const Plane>(*this, 1); }
-  View<const Plane> iodine_kg_m2() const { return plane<const Plane>(*this, 2); }
-  View<const Plane> unmatched() const { return plane<const Plane>(*this, 3); }
-
-  int side() const { return side_; }
-  Pixels& pixels() { return pixels_; }  ///< one column per pixel, row after row: soft, bone, iodine, unmatched
-  const Pixels& pixels() const { return pixels_; }
-
- private:
-  template <class Floats, class Self>
-  static View<Floats> plane(Self& self, int component) {
-    return {self.pixels_.data() + component, self.side_, self.side_, {4 * self.side_, 4}};
+  explicit PathLengths(int pixels = 0) {  ///< along a side; all zero
+    for (Plane& plane : planes_) plane.setZero(pixels, pixels);
   }
 
-  int side_;
-  Pixels pixels_;
+  Plane& soft_m() { return planes_[0]; }  ///< thickness of the two basis materials
+  Plane& bone_m() { return planes_[1]; }
+  Plane& iodine_kg_m2() { return planes_[2]; }  ///< iodine, by mass
+  Plane& unmatched() { return planes_[3]; }     ///< exits minus entries: 0 for closed surfaces
+  const Plane& soft_m() const { return planes_[0]; }
+  const Plane& bone_m() const { return planes_[1]; }
+  const Plane& iodine_kg_m2() const { return planes_[2]; }
+  const Plane& unmatched() const { return planes_[3]; }
+
+  int side() const { return static_cast<int>(planes_[0].rows()); }
+
+ private:
+  std::array<Plane, 4> planes_;
 };
 
 /// Signs of a leak: an entry without an exit, or a negative amount.

@@ -4,60 +4,72 @@
 /// No gaps between triangles: the crossing of a row of pixel centres with an edge is computed from the upper end of
 /// that edge, so that both its triangles get the same bits, and a span's sign depends on which of its two crossings is
 /// on the left. So entries and exits of a closed surface cancel exactly in every pixel.
+///
+/// Most spans are some pixels long, so what counts is their number, and that nothing in them is guessed by the
+/// processor: eight rows are cut at once, eight pixels written at once, and those beyond a span's end get nothing
+/// added. A body is summed in whole numbers, whose sum is the same in any order.
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
+#include <vector>
 
+#include "fluoro/base/lanes.h"
 #include "fluoro/projection/path_lengths.h"
 
 namespace ostium::fluoro {
 
 namespace {
 
-/// A vertex on the picture: column and row in pixels (centres at one half), depth from the source.
+bool any(const Ints& value) {
+  std::array<std::int64_t, 4> quarters;
+  std::memcpy(&quarters, &value, sizeof value);
+  return (quarters[0] | quarters[1] | quarters[2] | quarters[3]) != 0;
+}
+/// Adds the first of the lanes to a row of pixels.
+void increase(const Floats& value, int count, float* to) { store(load(to, count) + value, to, count); }
+
+/// A vertex on the picture: column and row in pixels (centres at one half), depth from the source and its inverse,
+/// which is linear in the picture.
 struct Corner {
-  double x, y;
-  float depth;
+  float x, y, depth, inverse;
 };
 
 /// Contrast of a vertex: concentration times depth from its centreline, and the integral along that, kg/m2.
 using Filling = float;
 
-/// value = at + per_x column + per_y row, in whole pixels.
+/// value = at + per_x (x - a.x) + per_y (y - a.y), between the least and the most at its corners: of a sliver the
+/// slopes are steep and what is rounded matters.
 struct Linear {
-  double at = 0, per_x = 0, per_y = 0;
-  double operator()(int column, int row) const { return at + per_x * column + per_y * row; }
-};
+  float at, per_x, per_y, few, many;
 
-struct Slopes {
-  double x1, y1, x2, y2, over_area;  // of two edges
-
-  Slopes(const Corner& a, const Corner& b, const Corner& c)
-      : x1(b.x - a.x), y1(b.y - a.y), x2(c.x - a.x), y2(c.y - a.y) {
-    const double area = x1 * y2 - x2 * y1;
-    over_area = std::fabs(area) > 1e-9 ? 1 / area : 0;  // for a sliver: constant, the first corner's value
-  }
-
-  Linear through(const Corner& a, double va, double vb, double vc) const {
-    const double per_x = ((vb - va) * y2 - (vc - va) * y1) * over_area;
-    const double per_y = ((vc - va) * x1 - (vb - va) * x2) * over_area;
-    return {va - per_x * (a.x - 0.5) - per_y * (a.y - 0.5), per_x, per_y};
+  Linear(const Corner& a, const Corner& b, const Corner& c, float va, float vb, float vc) : at(va) {
+    const float x1 = b.x - a.x, y1 = b.y - a.y, x2 = c.x - a.x, y2 = c.y - a.y, area = x1 * y2 - x2 * y1;
+    const float over_area = std::fabs(area) > 1e-9f ? 1 / area : 0;
+    per_x = ((vb - va) * y2 - (vc - va) * y1) * over_area;
+    per_y = ((vc - va) * x1 - (vb - va) * x2) * over_area;
+    few = std::min({va, vb, vc}), many = std::max({va, vb, vc});
   }
 };
 
-/// Where an edge crosses the middle of a row; bit-identical for both triangles.
+/// Where an edge crosses the middles of rows; bit-identical for both triangles.
 struct Edge {
-  double x, y, slope;
+  float x, y, slope;
   Edge(const Corner& upper, const Corner& lower)
       : x(upper.x), y(upper.y), slope((lower.x - upper.x) / (lower.y - upper.y)) {}
-  double crossing(int row) const { return x + slope * (row + 0.5 - y); }
+  Floats crossing(const Floats& at_y) const { return x + slope * (at_y - y); }
 };
 
-/// Also of what is no number: 0.
-int first_centre_from(double position, double pixels) {
-  const double centre = std::ceil(position - 0.5), positive = centre > 0 ? centre : 0;
+/// The first pixel centre at or after a position, 0 to pixels; also of what is no number: 0.
+int first_centre_from(float position, float pixels) {
+  const float centre = std::ceil(position - 0.5f), positive = centre > 0 ? centre : 0;
   return static_cast<int>(positive < pixels ? positive : pixels);
+}
+Ints first_centres_from(const Floats& position, float pixels) {
+  const Floats after = position - 0.5f, positive = least(most(after, Floats{}), all(pixels));
+  const Ints below = truncated(positive);
+  return below - (to_floats(below) < positive);  // true is -1
 }
 
 /// The first row and column of pixel centres at or after a vertex.
@@ -71,65 +83,29 @@ bool meets_a_centre(Cell a, Cell b, Cell c) {
   return differ(a.row, b.row, c.row) && differ(a.column, b.column, c.column);
 }
 
-/// Calls span(row, from, to, sign) for each row; sign is +1 where the ray exits: the triangle is anticlockwise in the
-/// picture.
-template <typename Span>
-void for_each_span(const Corner& a, const Corner& b, const Corner& c, int pixels, Span&& span) {
-  const Corner* top = &a;
-  const Corner* middle = &b;
-  const Corner* bottom = &c;
-  float parity = 1;
-  const auto order = [&](const Corner*& upper, const Corner*& lower) {
-    if (lower->y < upper->y) {
-      std::swap(upper, lower);
-      parity = -parity;
-    }
-  };
-  order(top, middle);
-  order(middle, bottom);
-  order(top, middle);
-  const int first = first_centre_from(top->y, pixels), last = first_centre_from(bottom->y, pixels);
-  if (first >= last) return;
-  const int turn = first_centre_from(middle->y, pixels);
-  const Edge whole(*top, *bottom);
-  const auto rows = [&](int from, int to, const Edge& broken) {
-    for (int row = from; row < to; ++row) {
-      const int l = first_centre_from(whole.crossing(row), pixels), r = first_centre_from(broken.crossing(row), pixels);
-      if (l < r) span(row, l, r, -parity);
-      if (r < l) span(row, r, l, parity);
-    }
-  };
-  if (first < turn) rows(first, turn, Edge(*top, *middle));
-  if (turn < last) rows(turn, last, Edge(*middle, *bottom));
-}
+/// Sums over one body, in whole units. What is no part of a closed surface leaves whole turns: for each exit one is
+/// added, for each entry one subtracted.
+struct Sums {
+  float unit;     ///< of a whole number
+  int turn_log2;  ///< a turn in units: more than twice the largest sum of a closed surface
+  int stride = 0;
+  std::vector<std::int32_t> sum{};         ///< rows of `stride` pixels, those beyond the picture for whole lanes
+  std::vector<std::int32_t> from{}, to{};  ///< columns touched in each row; and some rows beyond the picture
 
-using Four = Eigen::Array4f;
-using Eight = Eigen::Array<float, 8, 1>;  // two pixels fill one register and need one store
-
-/// Adds first, first + step, first + 2 step ... to n pixels.
-void add_ramp(float* pixel, int n, const Four& first, const Four& step) {
-  if (n == 1) {
-    Eigen::Map<Four>(pixel) += first;
-    return;
+  void resize(int pixels) {
+    if (stride == pixels + lanes) return;
+    stride = pixels + lanes;
+    const auto rows = static_cast<std::size_t>(pixels);
+    sum.assign(rows * static_cast<std::size_t>(stride), 0);
+    from.assign(rows + lanes, stride), to.assign(rows + lanes, 0);
   }
-  Eight value, by;
-  value << first, first + step;
-  by << 2 * step, 2 * step;
-  for (; n >= 2; n -= 2, pixel += 8) {
-    Eigen::Map<Eight>(pixel) += value;
-    value += by;
-  }
-  if (n) Eigen::Map<Four>(pixel) += value.head<4>();
-}
-
-/// A triangle of fewer millimetres of depth is drawn with a depth that is linear in the picture, rather than its
-/// inverse: off by a quarter of the square of this over the distance, 1.3 um.
-constexpr float flat_m = 2e-3f;
+};
 
 class ScanlineRenderer final : public PathLengthRenderer {
  public:
   void add(const View& view, std::span<const Body> bodies, PathLengths& out, Parts parts) override {
-    isocentre_ = view.arm.source_to_isocentre_m;
+    isocentre_ = static_cast<float>(view.arm.source_to_isocentre_m);
+    for (Sums* sums : {&depth_m_, &iodine_kg_m2_}) sums->resize(out.side());
     for (const Body& body : bodies) {
       const Tissue net{body.tissue.soft - body.within.soft, body.tissue.bone - body.within.bone};
       const bool has_tissue = net.soft != 0 || net.bone != 0, filled = parts != Parts::still && is_seen(body.contrast);
@@ -138,12 +114,16 @@ class ScanlineRenderer final : public PathLengthRenderer {
                 last = parts == Parts::still ? still : all;
       if (first == last || (!has_tissue && !filled)) continue;
       project(view, body, still > 0 && parts == Parts::moving && !filled ? body.corners.get() : nullptr);
-      if (filled) project_contrast(view, body);
       // An entry or exit is counted where its tissue is drawn; where there is none, with its contrast.
-      if (has_tissue && filled) draw<true, true>(body, first, last, net, 1, out);
-      if (has_tissue && !filled) draw<true, false>(body, first, last, net, 1, out);
-      if (!has_tissue) draw<false, true>(body, first, last, net, 1, out);
-      if (has_tissue && filled && first > 0) draw<false, true>(body, 0, first, net, 0, out);
+      if (has_tissue) {
+        draw<Quantity::depth>(body, first, last, true, depth_m_, out.side());
+        take(depth_m_, out, out.soft_m(), net.soft, net.bone != 0 ? &out.bone_m() : nullptr, net.bone);
+      }
+      if (filled) {
+        project_contrast(view, body);
+        draw<Quantity::iodine>(body, 0, all, !has_tissue, iodine_kg_m2_, out.side());
+        take(iodine_kg_m2_, out, out.iodine_kg_m2(), 1, nullptr, 0);
+      }
     }
   }
 
@@ -151,19 +131,19 @@ class ScanlineRenderer final : public PathLengthRenderer {
 
  private:
   static constexpr float nearest_m = 0.05f;  // no part of a patient is nearer to the source
+  enum class Quantity { depth, iodine };
 
   /// All vertices, or those listed. Each comes out with the same bits in any list: no operations are fused.
   void project(const View& view, const Body& body, const std::vector<int>* listed) {
     constexpr int block = 128;
     const ImageAxes axes(view.arm);
     const Eigen::Vector3d s = source(view.arm), &r = axes.right, &u = axes.up, &o = axes.outwards;
-    const double scale = view.arm.source_to_detector_m / view.field_m * view.pixels, half = 0.5 * view.pixels,
-                 pixels = view.pixels;
+    const double scale = view.arm.source_to_detector_m / view.field_m * view.pixels, half = 0.5 * view.pixels;
+    const auto pixels = static_cast<float>(view.pixels);
     const std::size_t vertices = static_cast<std::size_t>(body.p_P.cols()), count = listed ? listed->size() : vertices;
     corners_.resize(vertices);
     cells_.resize(vertices);
     std::array<double, block> x, y, z, depth;
-    std::array<std::int32_t, block> row, column;
     for (std::size_t begin = 0; begin < count; begin += block) {
       const int n = static_cast<int>(std::min<std::size_t>(block, count - begin));
       const auto vertex = [&](int i) {
@@ -180,12 +160,13 @@ class ScanlineRenderer final : public PathLengthRenderer {
         const double over = scale / depth[i];
         x[i] = half + over * (a * r[0] + b * r[1] + c * r[2]);
         y[i] = half - over * (a * u[0] + b * u[1] + c * u[2]);
-        column[i] = first_centre_from(x[i], pixels);
-        row[i] = first_centre_from(y[i], pixels);
       }
       for (int i = 0; i < n; ++i) {
-        corners_[vertex(i)] = {x[i], y[i], static_cast<float>(depth[i])};
-        cells_[vertex(i)] = {static_cast<std::int16_t>(row[i]), static_cast<std::int16_t>(column[i])};
+        Corner& corner = corners_[vertex(i)];
+        corner = {static_cast<float>(x[i]), static_cast<float>(y[i]), static_cast<float>(depth[i]),
+                  static_cast<float>(1 / depth[i])};
+        cells_[vertex(i)] = {static_cast<std::int16_t>(first_centre_from(corner.y, pixels)),
+                             static_cast<std::int16_t>(first_centre_from(corner.x, pixels))};
       }
     }
   }
@@ -201,91 +182,103 @@ class ScanlineRenderer final : public PathLengthRenderer {
     }
   }
 
-  template <bool has_tissue, bool filled>
-  void draw(const Body& body, int first, int last, Tissue net, float counted, PathLengths& out) {
+  template <Quantity quantity>
+  void draw(const Body& body, int first, int last, bool counted, Sums& sums, int side) {
     for (int n = first; n < last; ++n) {
       const auto t = body.triangles->col(n);
       const auto i = std::size_t(t[0]), j = std::size_t(t[1]), k = std::size_t(t[2]);
       if (!meets_a_centre(cells_[i], cells_[j], cells_[k])) continue;
       const Corner &a = corners_[i], &b = corners_[j], &c = corners_[k];
-      const auto [least, most] = std::minmax({a.depth, b.depth, c.depth});
-      if (least < nearest_m) continue;
-      if (has_tissue && most - least > flat_m) {
-        add_deep(a, b, c, net, counted, out);
-        if (filled) add_flat<false, true>(a, b, c, {fillings_[i], fillings_[j], fillings_[k]}, net, 0, out);
-      } else {
-        add_flat<has_tissue, filled>(a, b, c, filled ? Three{fillings_[i], fillings_[j], fillings_[k]} : Three{}, net,
-                                     counted, out);
-      }
+      if (std::min({a.depth, b.depth, c.depth}) < nearest_m) continue;
+      const Linear value = quantity == Quantity::depth ? Linear(a, b, c, a.inverse, b.inverse, c.inverse)
+                                                       : Linear(a, b, c, fillings_[i], fillings_[j], fillings_[k]);
+      add_triangle<quantity>(a, b, c, value, counted ? 1 << sums.turn_log2 : 0, sums, side);
     }
   }
 
-  using Three = std::array<float, 3>;
-
-  /// What is crossed is linear in the picture. Vessels are finely meshed: that holds for their contrast to a
-  /// thousandth.
-  template <bool has_tissue, bool filled>
-  void add_flat(const Corner& a, const Corner& b, const Corner& c, const Three& filling, Tissue net, float counted,
-                PathLengths& out) {
-    const Slopes slopes(a, b, c);
-    const Linear depth = has_tissue ? slopes.through(a, a.depth, b.depth, c.depth) : Linear{};
-    const Linear iodine = filled ? slopes.through(a, filling[0], filling[1], filling[2]) : Linear{};
-    // Of a sliver the slopes are steep and what is rounded matters: nothing beyond the corners' values is added.
-    const auto [near, far] = std::minmax({a.depth, b.depth, c.depth});
-    const auto [few, many] = std::minmax({filling[0], filling[1], filling[2]});
-    const float near_ = near, far_ = far, few_ = few, many_ = many;
-    const auto isocentre = static_cast<float>(isocentre_);
-    const int side = out.side();
-    float* const pixels = out.pixels().data();
-    const auto per_x = static_cast<float>(depth.per_x), iodine_per_x = static_cast<float>(iodine.per_x);
-    const Four step(net.soft * per_x, net.bone * per_x, iodine_per_x, 0);
-    // Captured by value, so that the compiler need not reload them after each store into a pixel.
-    for_each_span(a, b, c, side, [=](int row, int from, int to, float sign) {
-      Four first(0, 0, 0, counted);
-      if (has_tissue) {
-        const float m = std::clamp(static_cast<float>(depth(from, row)), near_, far_) - isocentre;
-        first[0] = net.soft * m, first[1] = net.bone * m;
+  template <Quantity quantity>
+  void add_triangle(const Corner& a, const Corner& b, const Corner& c, const Linear& value, int turn, Sums& sums,
+                    int side) const {
+    const Corner* top = &a;
+    const Corner* middle = &b;
+    const Corner* bottom = &c;
+    int entry = 0;  // -1: the triangle is clockwise if its longest edge is on the left
+    const auto order = [&](const Corner*& upper, const Corner*& lower) {
+      if (lower->y < upper->y) {
+        std::swap(upper, lower);
+        entry = ~entry;
       }
-      if (filled) first[2] = std::clamp(static_cast<float>(iodine(from, row)), few_, many_);
-      add_ramp(pixels + 4 * (std::ptrdiff_t(row) * side + from), to - from, sign * first, sign * step);
-    });
+    };
+    order(top, middle);
+    order(middle, bottom);
+    order(top, middle);
+    const auto pixels = static_cast<float>(side);
+    const int first = first_centre_from(top->y, pixels), last = first_centre_from(bottom->y, pixels);
+    const int bend = first_centre_from(middle->y, pixels);
+    const Edge whole(*top, *bottom), above(*top, *middle), below(*middle, *bottom);
+    for (int row = first; row < last; row += lanes) {
+      const Ints rows = row + counting_ints;
+      const Floats y = static_cast<float>(row) + 0.5f + counting;
+      const Ints one = first_centres_from(whole.crossing(y), pixels),
+                 other = first_centres_from(rows < bend ? above.crossing(y) : below.crossing(y), pixels);
+      const Ints from = one < other ? one : other, to = one < other ? other : one;
+      // The sign is +1 where the ray exits: the triangle is anticlockwise in the picture.
+      const Ints negative = (one < other) ^ entry;
+      const Ints count = rows < last ? to - from : Ints{};
+      const Floats start = value.at + value.per_x * (to_floats(from) + 0.5f - a.x) + value.per_y * (y - a.y);
+      const Ints touched = count > 0;
+      std::int32_t *const least_from = &sums.from[static_cast<std::size_t>(row)],
+                          *const most_to = &sums.to[static_cast<std::size_t>(row)];
+      const Ints so_far_from = load(least_from), so_far_to = load(most_to);
+      store((touched & (from < so_far_from)) ? from : so_far_from, least_from);
+      store((touched & (to > so_far_to)) ? to : so_far_to, most_to);
+      const int here = std::min(lanes, last - row);
+      for (int k = 0; k < here; ++k)
+        if (count[k] > 0)
+          add_span<quantity>(value, start[k], count[k], negative[k], turn,
+                             sums.sum.data() + std::ptrdiff_t(row + k) * sums.stride + from[k], sums.unit);
+    }
   }
 
-  /// The inverse of the depth is linear in the picture.
-  void add_deep(const Corner& a, const Corner& b, const Corner& c, Tissue net, float counted, PathLengths& out) {
-    const Linear inverse = Slopes(a, b, c).through(a, 1.0 / a.depth, 1.0 / b.depth, 1.0 / c.depth);
-    const auto [near, far] = std::minmax({a.depth, b.depth, c.depth});
-    const float near_ = near, far_ = far, per_x = static_cast<float>(inverse.per_x);
-    const auto isocentre = static_cast<float>(isocentre_);
-    const int side = out.side();
-    float* const pixels = out.pixels().data();
-    for_each_span(a, b, c, side, [=](int row, int from, int to, float sign) {
-      constexpr int at_once = 8;
-      static const Eight steps{{0, 1, 2, 3, 4, 5, 6, 7}};
-      const auto start = static_cast<float>(inverse(from, row));
-      const Four per_m(sign * net.soft, sign * net.bone, 0, 0), once(0, 0, 0, sign * counted);
-      Eight per_m_twice, once_twice;
-      per_m_twice << per_m, per_m;
-      once_twice << once, once;
-      float* pixel = pixels + 4 * (std::ptrdiff_t(row) * side + from);
-      for (int x = 0; x < to - from; x += at_once, pixel += 4 * at_once) {
-        const Eight depth =
-            (start + per_x * (static_cast<float>(x) + steps)).inverse().max(near_).min(far_) - isocentre;
-        const int n = std::min(at_once, to - from - x);
-        for (int i = 0; i + 2 <= n; i += 2) {
-          Eight twice;
-          twice << depth[i], depth[i], depth[i], depth[i], depth[i + 1], depth[i + 1], depth[i + 1], depth[i + 1];
-          Eigen::Map<Eight>(pixel + 4 * i) += per_m_twice * twice + once_twice;
-        }
-        if (n % 2) Eigen::Map<Four>(pixel + 4 * (n - 1)) += per_m * depth[n - 1] + once;
+  template <Quantity quantity>
+  void add_span(const Linear& value, float start, int count, int negative, int turn, std::int32_t* to,
+                float unit) const {
+    const float per_unit = 1 / unit;
+    for (int done = 0; done < count; done += lanes, to += lanes) {
+      Floats v = start + value.per_x * (static_cast<float>(done) + counting);
+      v = least(most(v, all(value.few)), all(value.many));
+      if (quantity == Quantity::depth) v = 1 / v - isocentre_;
+      const Ints added = ((truncated(v * per_unit) + turn) ^ negative) - negative;
+      store(load(to) + (added & (counting_ints < count - done)), to);
+    }
+  }
+
+  /// Adds what was summed to up to two planes, each with its share, and sets it to zero.
+  static void take(Sums& sums, PathLengths& out, Plane& first, float first_share, Plane* second, float second_share) {
+    const std::int32_t half = 1 << (sums.turn_log2 - 1);
+    for (int row = 0; row < out.side(); ++row) {
+      auto &from = sums.from[static_cast<std::size_t>(row)], &to = sums.to[static_cast<std::size_t>(row)];
+      std::int32_t* const sum = sums.sum.data() + std::ptrdiff_t(row) * sums.stride;
+      float *const one = first.row(row).data(), *const other = second ? second->row(row).data() : nullptr,
+                   *const unmatched = out.unmatched().row(row).data();
+      for (int column = from; column < to; column += lanes) {  // beyond `to` and beyond the picture the sum is zero
+        const Ints sums_here = load(sum + column), turns = (sums_here + half) >> sums.turn_log2;
+        const Floats rest = sums.unit * to_floats(sums_here - (turns << sums.turn_log2));
+        store(Ints{}, sum + column);
+        const int here = std::min(lanes, out.side() - column);
+        increase(first_share * rest, here, one + column);
+        if (other) increase(second_share * rest, here, other + column);
+        if (any(turns)) increase(to_floats(turns), here, unmatched + column);
       }
-    });
+      from = sums.stride, to = 0;
+    }
   }
 
   std::vector<Corner> corners_;
   std::vector<Cell> cells_;
   std::vector<Filling> fillings_;
-  double isocentre_ = 0;
+  Sums depth_m_{0x1p-24f, 27}, iodine_kg_m2_{0x1p-20f, 29};  // turns of 8 m and 512 kg/m2
+  float isocentre_ = 0;
 };
 
 }  // namespace

@@ -29,6 +29,7 @@ Statistics of_pair(const fluoro::Plane& a, const fluoro::Plane& b) {
 fluoro::ImagerModel without_blur() {
   fluoro::ImagerModel model;
   model.detector_blur_m = 0;
+  model.glare.share = 0;
   return model;
 }
 
@@ -93,6 +94,7 @@ std::vector<data::GateResult> xray_edge(bool) {
   const fluoro::Scene scene{bodies, {}, {}};
   fluoro::ImagerModel model;
   model.scatter.per_m = model.scatter.per_m2 = 0;
+  model.glare.share = 0;  // its tails are no edge's
   fluoro::Imager imager(model, fluoro::make_scanline_renderer());
   fluoro::View view;
   view.pixels = 1024;
@@ -127,6 +129,36 @@ std::vector<data::GateResult> xray_edge(bool) {
   const double set_m =
       std::sqrt(std::pow(model.detector_blur_m, 2) + (penumbra_m * penumbra_m + pixel_m * pixel_m) / 12);
   return {{"xray-edge", 1e3 * measured_m, 1e3 * set_m, 0.05 * 1e3 * set_m, "mm"}};
+}
+
+std::vector<data::GateResult> xray_glare(bool) {
+  // An opaque plate covers one side of the picture. In its shadow, 10 mm from the edge, there is glare alone: the
+  // share, times the part of a Gaussian beyond the edge. In the open, far away, nothing is missing.
+  auto bodies = std::make_shared<std::vector<fluoro::Body>>();
+  bodies->push_back(fluoro::phantom::body("plate", fluoro::phantom::brick({0, -0.3, -0.0005}, {0.3, 0.3, 0.0005}),
+                                          {1e4, 0}, fluoro::tissue::air));
+  const fluoro::Scene scene{bodies, {}, {}};
+  const fluoro::View view;
+  const auto pixels = [&](double m) { return static_cast<Eigen::Index>(std::lround(m / view.field_m * view.pixels)); };
+  const auto at = [&](const fluoro::Plane& picture, double right_m) {
+    return double(picture.block(view.pixels / 2 - 40, view.pixels / 2 + pixels(right_m) - 1, 80, 2).mean());
+  };
+  const auto picture_with = [&](double share) {
+    fluoro::ImagerModel model;
+    model.scatter.per_m = model.scatter.per_m2 = 0;
+    model.glare.share = share;
+    fluoro::Imager imager(model, fluoro::make_scanline_renderer());
+    fluoro::ImagerState state;
+    imager.frame({scene, view, {}, fluoro::cine(), 1}, state);
+    return state.lag.shown;
+  };
+  const fluoro::GlareKernel kernel;
+  const fluoro::Plane with = picture_with(kernel.share), without = picture_with(0);
+  const double into_m = 0.01, open = at(without, -0.05);
+  const double beyond = 0.5 * std::erfc(into_m / kernel.spread_m / std::sqrt(2.0));
+  return {{"xray-glare-shadow", at(with, into_m) / open, kernel.share * beyond, 0.04 * kernel.share, "1"},
+          {"xray-glare-open", at(with, -0.05) / open,
+           1 - kernel.share * 0.5 * std::erfc(0.05 / kernel.spread_m / std::sqrt(2.0)), 0.005, "1"}};
 }
 
 std::vector<data::GateResult> xray_lag(bool) {

@@ -1,7 +1,6 @@
 #include "app/session/scene/xray_scene.h"
 
 #include <algorithm>
-#include <map>
 
 #include "app/angiography/device_scene.h"
 #include "app/angiography/xray_body.h"
@@ -163,7 +162,7 @@ XrayPatient::XrayPatient(std::shared_ptr<const vascular::Patient> patient, Fill 
   if (which != Fill::none) fill(which);
 }
 
-/// The part of the lumen that belongs to a coronary tree, closed by a lid at its ostium.
+/// A coronary tree, closed by a lid at its ostium.
 void XrayPatient::fill(Fill which) {
   const vascular::Anatomy& anatomy = patient_->anatomy;
   std::vector<bool> coronary(anatomy.tubes.size(), false);
@@ -172,45 +171,14 @@ void XrayPatient::fill(Fill which) {
   for (std::size_t t = 0; t < anatomy.tubes.size(); ++t)
     if (anatomy.tubes[t].parent >= 0 && coronary[static_cast<std::size_t>(anatomy.tubes[t].parent)]) coronary[t] = true;
   const vascular::MovingLumen& lumen = patient_->lumen;
-  std::vector<int> number(lumen.vertices(), -1);
   const auto belongs = [&](int v) {
     double weight = 0;
     for (const vascular::TubeShare& share : lumen.shares[static_cast<std::size_t>(v)])
       if (coronary[static_cast<std::size_t>(share.tube)]) weight += share.weight;
     return weight > 0.5;
   };
-  std::vector<std::array<int, 3>> triangles;
-  std::map<std::pair<int, int>, int> edges;
-  for (const auto& t : lumen.triangles) {
-    if (!belongs(t[0]) || !belongs(t[1]) || !belongs(t[2])) continue;
-    std::array<int, 3> mine;
-    for (std::size_t k = 0; k < 3; ++k) {
-      int& n = number[static_cast<std::size_t>(t[k])];
-      if (n < 0) n = static_cast<int>(filled_.vertices.size()), filled_.vertices.push_back(t[k]);
-      mine[k] = n;
-    }
-    triangles.push_back(mine);
-    for (std::size_t k = 0; k < 3; ++k) edges[{mine[k], mine[(k + 1) % 3]}] = 1;
-  }
-  // Rims: edges without a partner, joined into loops; each gets a lid around a new vertex.
-  std::multimap<int, int> next;
-  for (const auto& [edge, one] : edges)
-    if (!edges.count({edge.second, edge.first})) next.emplace(edge.first, edge.second);
-  int lid = static_cast<int>(filled_.vertices.size());
-  while (!next.empty()) {
-    std::vector<int> loop{next.begin()->first};
-    for (int to = next.begin()->second;; to = next.find(to)->second) {
-      next.erase(std::find_if(next.begin(), next.end(),
-                              [&](const auto& e) { return e.first == loop.back() && e.second == to; }));
-      if (to == loop.front()) break;
-      loop.push_back(to);
-      if (!next.count(to)) break;
-    }
-    for (std::size_t i = 0; i < loop.size(); ++i) triangles.push_back({loop[(i + 1) % loop.size()], loop[i], lid});
-    filled_.rims.push_back(std::move(loop));
-    ++lid;
-  }
-  filled_.triangles = triangles_of(triangles);
+  filled_ = cut_out(lumen.triangles, lumen.vertices(),
+                    [&](const Corners& t) { return belongs(t[0]) && belongs(t[1]) && belongs(t[2]); });
   twigs_.emplace(std::make_shared<const vascular::Twigs>(grow_twigs(*patient_)));
   twigs_->fill([&](int root) { return belongs(root) ? iodine_kg_m3 : 0; });
 }
@@ -222,19 +190,13 @@ fluoro::Scene XrayPatient::at(double phase, double breath_depth) const {
     move(moving_[b], vascular::contraction(phase), breath, scene.moving[b]);
   if (filled_.vertices.empty()) return scene;
   const vascular::Mesh lumen = patient_->lumen.at(phase, breath);
-  std::vector<Vector3d> vertices;
-  for (int v : filled_.vertices) vertices.push_back(lumen.vertices[static_cast<std::size_t>(v)]);
-  for (const std::vector<int>& rim : filled_.rims) {
-    Vector3d middle = Vector3d::Zero();
-    for (int v : rim) middle += vertices[static_cast<std::size_t>(v)] / static_cast<double>(rim.size());
-    vertices.push_back(middle);
-  }
   fluoro::Body body{.name = "contrast",
                     .triangles = filled_.triangles,
-                    .p_P = points_of(vertices),
+                    .p_P = {},
                     .tissue = fluoro::tissue::blood,
                     .within = fluoro::tissue::blood,
                     .contrast = {}};
+  take(filled_, points_of(lumen.vertices), body.p_P);
   // The concentration is uniform, so depths may be counted from any common origin.
   body.contrast.iodine_kg_m3 = Eigen::VectorXf::Constant(body.p_P.cols(), iodine_kg_m3);
   body.contrast.p_PC = body.p_P.col(0).replicate(1, body.p_P.cols());

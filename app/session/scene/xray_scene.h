@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "app/angiography/cut_surface.h"
 #include "app/angiography/twig_body.h"
 #include "app/session/model/session.h"
 #include "fluoro/matter/scene.h"
@@ -30,11 +31,6 @@ class XrayPatient {
   fluoro::Scene at(double phase, double breath_depth = 0) const;
 
  private:
-  struct Filled {
-    std::vector<int> vertices;           ///< vertices of the lumen
-    std::vector<std::vector<int>> rims;  ///< where it is cut off; indices into `vertices`, each closed by a lid
-    std::shared_ptr<const fluoro::Triangles> triangles;
-  };
   void fill(Fill which);
 
   std::shared_ptr<const vascular::Patient> patient_;
@@ -42,8 +38,8 @@ class XrayPatient {
   std::shared_ptr<const std::vector<fluoro::Body>> fixed_;
   std::vector<vascular::XrayBody> moving_;
   std::vector<fluoro::Body> moving_bodies_;  ///< at end-diastole
-  Filled filled_;
-  std::optional<TwigBody> twigs_;  ///< if filled
+  CutSurface filled_;                        ///< the part of the lumen that belongs to a coronary tree
+  std::optional<TwigBody> twigs_;            ///< if filled
 };
 
 /// A case without a session: a scene for each cardiac phase.
