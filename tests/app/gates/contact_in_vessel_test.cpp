@@ -323,15 +323,44 @@ TEST(Contact, WhatSleepsInAWallThatGivesWayIsNotMet) {
   }
   long posed = 0, posed_awake = 0;
   for (int n = 0; n < 800; ++n) {
-    if (n % 8 == 0) wall.move(0.4e-3 * (1 - std::cos(0.01 * n)));
+    if (n % 8 == 0) wall.move(0.4e-3 * std::sin(0.2 * n));
     a.step(90);
-    if (n % 5 == 0) b.scratch = core::Scratch(b.model);  // everything is awake
+    if (n % 8 == 0) b.scratch = core::Scratch(b.model);  // everything is awake
     b.step(90);
     posed += a.report.counts.clusters, posed_awake += b.report.counts.clusters;
     ASSERT_EQ(hash(a.state), hash(b.state)) << n;
   }
   EXPECT_GT(posed, 800);
   EXPECT_LT(posed, posed_awake);
+  EXPECT_FALSE(a.report.touches.empty());
+}
+
+/// And where it is opened meanwhile, here and there, in all frames of the beat.
+TEST(Contact, WhatSleepsInAWallThatIsEditedIsNotMet) {
+  const gates::TestVessel vessel = gates::test_vessel();
+  gates::Rehearsal a(vessel, false), b(vessel, false);
+  const auto surface = std::make_shared<core::Surface>(*a.model.surfaces[0]);
+  core::SurfaceEditor editor(vessel.wall, *surface);
+  for (gates::Rehearsal* run : {&a, &b}) {
+    run->model.surfaces = {surface};
+    run->lay_wire(vessel.ways_W[0], 0.42);
+    run->inputs.rods[0].feed_m_s = 0.05;
+    run->inputs.rods[0].base.turn_rate_W_rad_s = Vector3d(20, 0, 0);
+  }
+  for (int n = 0; n < 400; ++n) {
+    if (n % 8 == 0) {
+      const auto vertices = vessel.wall.frames[0].size();
+      const Vector3d by = 0.4e-3 * Vector3d(std::sin(0.3 * n), std::cos(0.2 * n), std::sin(0.1 * n));
+      for (std::size_t v = static_cast<std::size_t>(n / 8 % 3); v < vertices; v += 3)
+        for (std::size_t f = 0; f < vessel.wall.frames.size(); ++f)
+          editor.place(static_cast<int>(v), static_cast<int>(f), vessel.wall.frames[f][v] + by);
+      editor.refit();
+    }
+    a.step(90);
+    if (n % 8 == 0) b.scratch = core::Scratch(b.model);  // everything is awake
+    b.step(90);
+    ASSERT_EQ(hash(a.state), hash(b.state)) << n;
+  }
   EXPECT_FALSE(a.report.touches.empty());
 }
 
