@@ -323,23 +323,33 @@ class Import {
     for (const vascular::FoundNarrowing& narrowing : find_narrowings(made_.patient.tree))
       if (!named || is_coronary(made_.found.anatomy, find_branch(made_.found.anatomy, narrowing.branch)->tube))
         made_.narrowings.push_back(narrowing);
-    if (const vascular::Unreached rest = unreached(made_.found.lumen, made_.patient.tree);
-        rest.share > vascular::unreached_matters) {
+    note_what_moves_wrongly();
+  }
+
+  /// Wall without a centreline, and wall that crosses itself in the beat, which mostly is the same wall.
+  void note_what_moves_wrongly() {
+    const vascular::SurfaceReport systole = vascular::check_surface(made_.patient.lumen.at(vascular::end_systole, 0));
+    const int crossing = systole.crossings.count;
+    const vascular::Unreached rest = unreached(made_.found.lumen, made_.patient.tree);
+    if (rest.share > vascular::unreached_matters) {
       const Eigen::Vector3d p = rest.p / mm;
       made_.found.notes.push_back(fmt::format(
           "{:.0f} % of the lumen's wall has no centreline, so nothing gets there, and {}: it hangs on by a narrowing "
-          "finer than the grid, near {:.1f} {:.1f} {:.1f} mm of the patient frame; {}",
+          "finer than the grid, near {:.1f} {:.1f} {:.1f} mm of the patient frame; {}{}",
           100 * rest.share, (rest.branch.empty() ? "the vessel that leads there" : rest.branch) + " is cut short",
           p.x(), p.y(), p.z(),
           made_.frames.empty() ? "a finer --voxel may find the way"
-                               : "imported alone, without --sequence, a frame is made anew on a finer grid"));
-    }
-    const vascular::SurfaceReport systole = vascular::check_surface(made_.patient.lumen.at(vascular::end_systole, 0));
-    if (systole.crossings.count > 0) {
+                               : "imported alone, without --sequence, a frame is made anew on a finer grid",
+          crossing > 0 ? fmt::format("; as it is, that wall moves with what lies near, and {} pairs of its triangles "
+                                     "cross at end-systole",
+                                     crossing)
+                       : ""));
+    } else if (crossing > 0) {
       const Eigen::Vector3d p = systole.crossings.where.front() / mm;
-      made_.found.notes.push_back(fmt::format(
-          "at end-systole {} pairs of triangles cross, the first at {:.1f} {:.1f} {:.1f} mm of the patient frame",
-          systole.crossings.count, p.x(), p.y(), p.z()));
+      made_.found.notes.push_back(
+          fmt::format("at end-systole {} pairs of triangles cross, the first at {:.1f} {:.1f} {:.1f} mm of the patient "
+                      "frame: the heart's motion, laid on it, folds the wall there; --motion none leaves it still",
+                      crossing, p.x(), p.y(), p.z()));
     }
   }
 

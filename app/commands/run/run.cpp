@@ -18,6 +18,7 @@
 #include "app/commands/run/report.h"
 #include "data/formats/load_error.h"
 #include "data/formats/write_file.h"
+#include "vascular/geometry/mesh_files/open_end.h"
 
 namespace ostium::app {
 
@@ -128,6 +129,8 @@ std::shared_ptr<const Vessel> build_vessel(RunSetup& setup, const std::string& c
   if (!warnings.empty())
     fmt::print(stderr, "ostium {}: of {}, near whose faults nothing is held back:\n{}", command, setup.vessel,
                warnings);
+  if (const std::string doubt = setup.is_mesh() ? vascular::doubt_of_mesh_end(setup.vessel) : ""; !doubt.empty())
+    fmt::print(stderr, "ostium {}: {}\n", command, doubt);
   for (const std::string& size : choose_sizes(*vessel, setup)) fmt::print(stderr, "{}, chosen by the vessel\n", size);
   return vessel;
 }

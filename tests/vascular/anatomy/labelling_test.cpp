@@ -102,6 +102,30 @@ TEST_P(LabellingOfKind, IsRight) {
     return note.find("its mirror image has") != std::string::npos;
   });
   EXPECT_EQ(mirrored, GetParam() == "mirrored coronary arteries");
+  EXPECT_TRUE(std::none_of(found.notes.begin(), found.notes.end(), [](const std::string& note) {
+    return note.find("the spacing of slices") != std::string::npos;
+  }));
+}
+
+std::string note_on_axes(const Mesh& mesh) {
+  for (const std::string& note : label_vessels(mesh).notes)
+    if (note.find("the spacing of slices") != std::string::npos) return note;
+  return "";
+}
+
+TEST(Labelling, AnAxisThatWasScaledAloneIsSaid) {
+  const Mesh whole = mesh_of(synthetic::made_up_vessels("coronary arteries", 1));
+  EXPECT_EQ(note_on_axes(whole), "");
+  struct {
+    int axis;
+    double factor;
+    const char* said;
+  } const scaled[] = {{2, 1.7, "drawn out along the file's z axis"}, {0, 0.6, "flat along the file's x axis"}};
+  for (const auto& [axis, factor, said] : scaled) {
+    Mesh mesh = whole;
+    for (Eigen::Vector3d& p : mesh.vertices) p[axis] *= factor;
+    EXPECT_NE(note_on_axes(mesh).find(said), std::string::npos) << said << ": " << note_on_axes(mesh);
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Labelling, LabellingOfKind, testing::ValuesIn(synthetic::made_up_kinds()),

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/base/units.h"
+#include "vascular/anatomy/labelling/axis_scale.h"
 #include "vascular/anatomy/labelling/branch_names.h"
 #include "vascular/anatomy/labelling/heart_match.h"
 #include "vascular/anatomy/labelling/landmarks.h"
@@ -101,6 +102,18 @@ bool is_mirrored(const Mesh& lumen, const MeanCourses& mean, const Progress& say
   return heart && heart->doubt < 1;
 }
 
+/// In the axes of the file.
+void note_axis_scale(const Mesh& lumen, LabelledVessels& out) {
+  std::vector<Tube> tubes = out.anatomy.tubes;
+  for (Tube& tube : tubes)
+    for (TubeNode& node : tube.nodes) node.p = out.R_PF.transpose() * (node.p + out.shift_P);
+  if (const std::optional<AxisScale> scale = find_axis_scale(lumen, tubes))
+    out.notes.push_back(fmt::format(
+        "its vessels are {} along the file's {} axis, {:.2g} times as wide there as along the others, which in healthy "
+        "ones differ by 2 %: was the spacing of slices left out? Scale that axis, and import it again",
+        scale->share < 1 ? "flat" : "drawn out", "xyz"[scale->axis], scale -> share));
+}
+
 }  // namespace
 
 LabelledVessels label_vessels(const Mesh& lumen, const LabellingOptions& options) {
@@ -169,6 +182,7 @@ LabelledVessels label_vessels(const Mesh& lumen, const LabellingOptions& options
   if (options.entry) entry = R * *options.entry;
   set_landmarks({mean.anatomy.landmarks, fit, ostia, entry}, out.anatomy, out.notes);
   move_to_ostium(out);
+  note_axis_scale(lumen, out);
   return out;
 }
 
