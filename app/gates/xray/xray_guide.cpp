@@ -1,6 +1,7 @@
 /// Whether an unfilled guide is seen: by an observer who knows what it looks like and weighs each pixel by that, in
-/// noise that is the same everywhere and in no two pixels alike (the ideal observer of ICRU report 54). What 10 mm of
-/// the shaft take away, squared and summed over pixels, over the noise's variance, is the square of its detectability.
+/// noise that is the same everywhere and in no two pixels alike (the ideal observer of ICRU report 54). What a piece of
+/// the shaft takes away, squared and summed over pixels, over the noise's variance, is the square of its detectability.
+/// A piece is as long as the guide is wide: if each is seen, the guide is, whatever lies behind it elsewhere.
 #include <cmath>
 
 #include "app/gates/gate.h"
@@ -46,7 +47,8 @@ double squares(const fluoro::ImagerModel& model) {
 /// The same from the ring's chord in steps of 0.01 mm, blurred by focal spot and pixel.
 double squares_by_chord(const fluoro::ImagerModel& model) {
   const fluoro::View view;
-  const fluoro::OpaqueSection ring = sections_of(data::find_instrument(data::load_catalogue(), "guide-jr4-6f")).back();
+  const std::vector<fluoro::OpaqueSection> rings =
+      sections_of(data::find_instrument(data::load_catalogue(), "guide-jr4-6f"));
   const fluoro::Programme programme = fluoro::fluoroscopy();
   fluoro::Imager imager(model, fluoro::make_scanline_renderer());
   const fluoro::XrayTube tube = imager.exposure({slab(soft_m, fluoro::tissue::soft), {}, {}, programme, 1}).tube;
@@ -58,12 +60,16 @@ double squares_by_chord(const fluoro::ImagerModel& model) {
   Eigen::ArrayXd lost(points);
   for (int i = 0; i < points; ++i) {
     const double d = std::fabs((i - 0.5 * (points - 1)) * step_m);
-    const double metal_m = ring.filling * (chord(ring.outer_radius_m, d) - chord(ring.inner_radius_m, d));
     double open = 0, left = 0;
     for (std::size_t b = 0; b < fluoro::energies; ++b) {
       const double arrives = double(beam.photons[b] * beam.energy_keV[b]) *
                              std::exp(-double(beam.mu(fluoro::Material::soft_tissue)[b]) * soft_m);
-      open += arrives, left += arrives * std::exp(-double(beam.mu(ring.material)[b]) * metal_m);
+      double depth = 0;
+      for (const fluoro::OpaqueSection& ring : rings)
+        if (ring.to_tip_m > 0.1)  // the shaft's, not the tip's
+          depth += double(beam.mu(ring.material)[b]) * ring.filling *
+                   (chord(ring.outer_radius_m, d) - chord(ring.inner_radius_m, d));
+      open += arrives, left += arrives * std::exp(-depth);
     }
     lost[i] = 1 - left / open;
   }
@@ -81,16 +87,17 @@ double squares_by_chord(const fluoro::ImagerModel& model) {
 }  // namespace
 
 std::vector<data::GateResult> xray_guide(bool) {
-  constexpr double photons = 100;  // counted by a pixel, in effect: the gate xray-noise-photons
+  // Counted by a pixel, in effect (the gate xray-noise-photons); 2 mm of the length that was summed over.
+  constexpr double photons = 100, share = 0.002 / (2 * half_length_m);
   fluoro::ImagerModel sharp;
   sharp.detector_blur_m = 0;
   fluoro::ImagerModel bare = sharp;
   bare.scatter.per_m = bare.scatter.per_m2 = 0, bare.glare.share = 0;
-  const double ours = std::sqrt(photons * squares(bare)), exact = std::sqrt(photons * squares_by_chord(bare));
-  const double seen = std::sqrt(photons * squares(sharp));
-  return {{"xray-guide-observer", ours, exact, 0.03 * exact, "1"},
-          // Rose's criterion, with scatter and glare: five standard deviations, here at most twice as many.
-          {"xray-guide-rose", seen, 7.5, 2.5, "1"}};
+  const auto detectability = [&](double sum) { return std::sqrt(photons * share * sum); };
+  const double exact = detectability(squares_by_chord(bare));
+  return {{"xray-guide-observer", detectability(squares(bare)), exact, 0.03 * exact, "1"},
+          // With scatter and glare. Rose's criterion: at least five standard deviations; more than ten is no polymer's.
+          {"xray-guide-rose", detectability(squares(sharp)), 7.5, 2.5, "1"}};
 }
 
 }  // namespace ostium::app::gates
