@@ -72,6 +72,7 @@ std::vector<data::GateResult> xray_noise(bool quick);
 std::vector<data::GateResult> xray_edge(bool quick);
 std::vector<data::GateResult> xray_glare(bool quick);
 std::vector<data::GateResult> xray_lag(bool quick);
+std::vector<data::GateResult> xray_guide(bool quick);
 std::vector<data::GateResult> xray_stenosis(bool quick);
 
 }  // namespace ostium::app::gates

@@ -38,6 +38,7 @@ const std::vector<Gate>& gates() {
       {"xray-edge", "width of a slanted edge, against the blur that was set", xray_edge},
       {"xray-glare", "the veil in an opaque plate's shadow, against a Gaussian's tail", xray_glare},
       {"xray-lag", "a wire that appears, against the step response", xray_lag},
+      {"xray-guide", "an unfilled guide in fluoroscopy, against an ideal observer and Rose's criterion", xray_guide},
       {"xray-stenosis", "a 60 % stenosis measured back from the picture", xray_stenosis},
   };
   return all;

@@ -11,9 +11,12 @@ enum class Mode { fluoroscopy, cine };
 /// Acquisition programme of a pedal.
 struct Programme {
   Mode mode = Mode::fluoroscopy;
-  double frames_per_s = 15;              ///< 3.75, 7.5, 15 or 30
-  double detector_dose_nGy = 30;         ///< air kerma per frame at the detector, behind the grid, for a 20 cm field
-  double copper_mm = 0.4;                ///< added filter
+  double frames_per_s = 15;       ///< 3.75, 7.5, 15 or 30
+  double detector_dose_nGy = 30;  ///< air kerma per frame at the detector, behind the grid, for a 20 cm field
+  double copper_mm = 0.4;         ///< added filter
+  /// Length of the X-ray pulse: an estimate, in the middle of the 3 to 10 ms that cardiac systems use [Schueler 2000,
+  /// RadioGraphics 20:1115, from memory].
+  double pulse_s = 0.006;
   double lag = 0.35;                     ///< share of the previous picture in the next (lag.h)
   double kerma_limit_Gy_s = 0.088 / 60;  ///< at the reference point; fluoroscopy: 88 mGy/min (21 CFR 1020.32)
 };

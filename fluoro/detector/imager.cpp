@@ -26,7 +26,7 @@ FrameReport Imager::frame(const FrameInput& in, ImagerState& state) {
   report.exposure = exposure(in);
   const Beam& beam = beams_(report.exposure.tube);
   draw(in);
-  shafts_.draw(in.view, beam, in.scene.shafts);
+  shafts_.draw(in.view, beam, in.scene.shafts, in.programme.pulse_s);
   attenuate(beam, stretch_, lengths_, shafts_, primary_);
   if (primary_.leaks) report.leak = find_leak(lengths_);
   collimate(in);

@@ -15,11 +15,11 @@ struct Picture {
 
 /// Set so that pictures have the tone and grain of cine frames of two makers' systems (the page's table).
 struct DisplaySettings {
-  double smooth_m = 0.2e-3;  ///< the system's noise filter: standard deviation at the detector
-  double compression = 0.5;  ///< share of the logarithmic picture's low frequencies that is removed
-  double slow_m = 0.006;     ///< low-pass width: standard deviation at the detector
-  double mean_level = 0.44;  ///< grey level of the mean signal, 0 to 1
-  double gamma = 0.54;       ///< grey level is the signal to this power
+  double smooth_m = 0.25e-3;  ///< the system's noise filter: standard deviation at the detector
+  double compression = 0.5;   ///< share of the logarithmic picture's low frequencies that is removed
+  double slow_m = 0.006;      ///< low-pass width: standard deviation at the detector
+  double mean_level = 0.44;   ///< grey level of the mean signal, 0 to 1
+  double gamma = 0.54;        ///< grey level is the signal to this power
 };
 
 /// Scratch planes for `display`, kept from frame to frame to avoid reallocation.

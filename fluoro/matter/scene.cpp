@@ -93,9 +93,10 @@ void check(const Scene& scene) {
   }
   for (const Shaft& shaft : scene.shafts)
     if (shaft.p_P.cols() < 2 || !shaft.p_P.allFinite() ||
-        (shaft.lumen_iodine_kg_m3.size() && shaft.lumen_iodine_kg_m3.size() != shaft.p_P.cols()))
+        (shaft.lumen_iodine_kg_m3.size() && shaft.lumen_iodine_kg_m3.size() != shaft.p_P.cols()) ||
+        (shaft.v_P.size() && (shaft.v_P.cols() != shaft.p_P.cols() || !shaft.v_P.allFinite())))
       throw std::invalid_argument("X-ray scene: shaft \"" + shaft.name +
-                                  "\" needs two points or more, and contrast at each or none");
+                                  "\" needs two points or more, and contrast and velocity at each or none");
 }
 
 }  // namespace ostium::fluoro

@@ -70,6 +70,7 @@ struct Shaft {
   std::vector<OpaqueSection> sections;  ///< may overlap: their attenuations add up
   double lumen_radius_m = 0;            ///< of the bore that contrast fills
   Eigen::VectorXd lumen_iodine_kg_m3;   ///< at each point; empty: none
+  Eigen::Matrix3Xd v_P = {};            ///< velocities of the points, m/s; empty: it rests
 };
 
 struct Scene {

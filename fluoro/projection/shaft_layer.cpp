@@ -36,12 +36,21 @@ double mean_chord(double radius, double d, double width) {
   return 2 * radius * radius * (half_disc((d + 0.5 * width) / radius) - half_disc((d - 0.5 * width) / radius)) / width;
 }
 
+/// The same of a rod that moves that far across.
+double mean_chord(double radius, double d, double width, double sweep) {
+  const int samples = sweep > 0 ? 1 + static_cast<int>(2 * sweep / width) : 1;
+  double sum = 0;
+  for (int i = 0; i < samples; ++i) sum += mean_chord(radius, d + sweep * ((i + 0.5) / samples - 0.5), width);
+  return sum / samples;
+}
+
 /// A point of the axis.
 struct Node {
-  Eigen::Vector2d at;   // in the picture: pixels, centres at one half
-  Eigen::Vector3d ray;  // from the source
-  double pixel_m = 0;   // width of a pixel at this depth
-  double along_m = 0;   // from the tip
+  Eigen::Vector2d at;                             // in the picture: pixels, centres at one half
+  Eigen::Vector3d ray;                            // from the source
+  double pixel_m = 0;                             // width of a pixel at this depth
+  double along_m = 0;                             // from the tip
+  Eigen::Vector2d way = Eigen::Vector2d::Zero();  // that it goes during the pulse, pixels
 };
 
 struct Ring {
@@ -60,7 +69,7 @@ class Painter {
  public:
   Painter(const View& view, ShaftLayer& out) : view_(view), axes_(view.arm), p_PS_(source(view.arm)), out_(out) {}
 
-  std::optional<Node> node(const Eigen::Vector3d& p_P, double along_m) const {
+  std::optional<Node> node(const Eigen::Vector3d& p_P, double along_m, const Eigen::Vector3d& way_P) const {
     const Eigen::Vector3d ray = p_P - p_PS_;
     const double depth = ray.dot(axes_.outwards);
     if (depth < 0.05) return {};
@@ -68,7 +77,8 @@ class Painter {
     return Node{{0.5 * view_.pixels + scale * ray.dot(axes_.right), 0.5 * view_.pixels - scale * ray.dot(axes_.up)},
                 ray,
                 1 / scale,
-                along_m};
+                along_m,
+                {scale * way_P.dot(axes_.right), -scale * way_P.dot(axes_.up)}};
   }
 
   /// All rings cover the same pixels: their common part is computed once.
@@ -82,7 +92,9 @@ class Painter {
     const double longer = axis.norm() / across_ray_m;
     const Eigen::Vector2d along = run.norm() > 1e-9 ? Eigen::Vector2d(run.normalized()) : piece.split_from;
     const Eigen::Vector2d beside(-along.y(), along.x());
-    const double reach = outermost / pixel_m + 1;  // pixels
+    const Eigen::Vector2d way = 0.5 * (piece.from.way + piece.to.way);
+    const double sweep_m = std::fabs(way.dot(beside)) * pixel_m, ramp = 1 + std::fabs(way.dot(along));
+    const double reach = outermost / pixel_m + 1 + 0.5 * way.norm();  // pixels
     const auto bound = [&](double a, double b, double by) {
       return std::pair(std::max(0, int(std::floor(std::min(a, b) - by))),
                        std::min(view_.pixels - 1, int(std::ceil(std::max(a, b) + by))));
@@ -105,13 +117,14 @@ class Painter {
                     : ShaftLayer::Touched{std::min(touched.from, first), std::max(touched.to, last + 1)};
       for (int column = first; column <= last; ++column) {
         const Eigen::Vector2d pixel(column + 0.5, row + 0.5);
-        const double share =
-            share_beyond(pixel - piece.from.at, piece.split_from) - share_beyond(pixel - piece.to.at, piece.split_to);
+        const double share = share_beyond(pixel - piece.from.at, piece.split_from, ramp) -
+                             share_beyond(pixel - piece.to.at, piece.split_to, ramp);
         if (!(share > 0)) continue;
         const double d = (pixel - piece.from.at).dot(beside) * pixel_m;
         for (const Ring& ring : rings) {
-          if (std::fabs(d) > ring.outer + 0.5 * pixel_m) continue;
-          const double chord = mean_chord(ring.outer, d, pixel_m) - mean_chord(ring.inner, d, pixel_m);
+          if (std::fabs(d) > ring.outer + 0.5 * (pixel_m + sweep_m)) continue;
+          const double chord =
+              mean_chord(ring.outer, d, pixel_m, sweep_m) - mean_chord(ring.inner, d, pixel_m, sweep_m);
           const auto m = static_cast<float>(share * longer * ring.filling * chord);
           for (std::size_t b = 0; b < energies; ++b) out_.optical_depth[b](row, column) += m * ring.mu[b];
         }
@@ -120,9 +133,9 @@ class Painter {
   }
 
  private:
-  /// The share of a pixel beyond a line across `direction`: a ramp one pixel long.
-  static double share_beyond(const Eigen::Vector2d& from_line, const Eigen::Vector2d& direction) {
-    return std::clamp(from_line.dot(direction) + 0.5, 0.0, 1.0);
+  /// The share of a pixel beyond a line across `direction`: a ramp so many pixels long, one and the way along it.
+  static double share_beyond(const Eigen::Vector2d& from_line, const Eigen::Vector2d& direction, double ramp) {
+    return std::clamp(from_line.dot(direction) / ramp + 0.5, 0.0, 1.0);
   }
 
   const View& view_;
@@ -138,17 +151,20 @@ Eigen::Vector2d direction(const Node& from, const Node& to, const Eigen::Vector2
 
 Node between(const Node& a, const Node& b, double along_m) {
   const double t = (along_m - a.along_m) / (b.along_m - a.along_m);
-  return {a.at + t * (b.at - a.at), a.ray + t * (b.ray - a.ray), a.pixel_m + t * (b.pixel_m - a.pixel_m), along_m};
+  return {a.at + t * (b.at - a.at), a.ray + t * (b.ray - a.ray), a.pixel_m + t * (b.pixel_m - a.pixel_m), along_m,
+          a.way + t * (b.way - a.way)};
 }
 
 using Nodes = std::vector<std::optional<Node>>;
 
-Nodes nodes_of(const Shaft& shaft, const Painter& painter) {
+Nodes nodes_of(const Shaft& shaft, const Painter& painter, double pulse_s) {
   Nodes nodes;
   double along = 0;
   for (Eigen::Index i = 0; i < shaft.p_P.cols(); ++i) {
     if (i) along += (shaft.p_P.col(i) - shaft.p_P.col(i - 1)).norm();
-    nodes.push_back(painter.node(shaft.p_P.col(i), along));
+    const bool moves = shaft.v_P.size() > 0;
+    nodes.push_back(painter.node(shaft.p_P.col(i), along,
+                                 moves ? Eigen::Vector3d(pulse_s * shaft.v_P.col(i)) : Eigen::Vector3d::Zero()));
   }
   return nodes;
 }
@@ -172,8 +188,8 @@ Ring bore_of(const Beam& beam, const Shaft& shaft, Eigen::Index from) {
   return bore;
 }
 
-void draw_shaft(const Beam& beam, const Shaft& shaft, Painter& painter) {
-  const Nodes nodes = nodes_of(shaft, painter);
+void draw_shaft(const Beam& beam, const Shaft& shaft, double pulse_s, Painter& painter) {
+  const Nodes nodes = nodes_of(shaft, painter, pulse_s);
   std::vector<Ring> whole;  // rings that run through the whole piece
   for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
     if (!nodes[i] || !nodes[i + 1] || !(nodes[i + 1]->along_m > nodes[i]->along_m)) continue;
@@ -205,7 +221,7 @@ void ShaftLayer::resize(int pixels) {
   touched.assign(std::size_t(pixels), {});
 }
 
-void ShaftLayer::draw(const View& view, const Beam& beam, std::span<const Shaft> shafts) {
+void ShaftLayer::draw(const View& view, const Beam& beam, std::span<const Shaft> shafts, double pulse_s) {
   if (optical_depth[0].rows() != view.pixels) resize(view.pixels);
   for (std::size_t row = 0; row < touched.size(); ++row) {
     const int from = touched[row].from, count = touched[row].to - from;
@@ -213,7 +229,7 @@ void ShaftLayer::draw(const View& view, const Beam& beam, std::span<const Shaft>
     touched[row] = {};
   }
   Painter painter(view, *this);
-  for (const Shaft& shaft : shafts) draw_shaft(beam, shaft, painter);
+  for (const Shaft& shaft : shafts) draw_shaft(beam, shaft, pulse_s, painter);
 }
 
 }  // namespace ostium::fluoro

@@ -5,6 +5,9 @@
 /// d^2) - sqrt(r_i^2 - d^2)) at the distance d from its axis, divided by sin(angle to the ray). A pixel takes the mean
 /// over its width, from the closed-form integral; along the axis adjacent pieces share pixels in proportion, so that at
 /// its joints none of a wire's material is lost or counted twice.
+///
+/// What moves during a pulse is spread evenly over the way that it goes meanwhile, half of it before and half after the
+/// frame's moment. Optical depths are averaged, not what gets through: for a wire of 15 % the difference is 1 %.
 #include <array>
 
 #include "fluoro/matter/beam.h"
@@ -22,7 +25,8 @@ struct ShaftLayer {
 
   explicit ShaftLayer(int pixels = 0) { resize(pixels); }
   void resize(int pixels);
-  void draw(const View& view, const Beam& beam, std::span<const Shaft> shafts);
+  /// `pulse_s`: how long the picture is exposed.
+  void draw(const View& view, const Beam& beam, std::span<const Shaft> shafts, double pulse_s = 0);
 };
 
 }  // namespace ostium::fluoro

@@ -31,6 +31,35 @@ Shaft steel(const Eigen::Matrix3Xd& line, double outer_m, double inner_m = 0) {
   return {"shaft", line, {{0, 10, Material::steel, outer_m, inner_m, 1}}, 0, {}};
 }
 
+TEST(ShaftLayer, WhatMovesDuringAPulseIsSpreadOverItsWay) {
+  // Across: the same metal, and the variance of its profile grows by that of a way of 2 mm. Along: nothing but the
+  // ends.
+  const Eigen::Matrix3Xd line = phantom::smooth_line({{-0.03, 0, 0}, {0.03, 0, 0}}, 0.002);
+  Drawn drawn;
+  struct Profile {
+    double sum = 0, variance_m2 = 0;
+  };
+  const auto profile = [&](const Vector3d& v_P) {
+    Shaft wire = steel(line, 0.2e-3);
+    wire.v_P = v_P.replicate(1, line.cols());
+    drawn.layer.draw(drawn.view, drawn.beam, {&wire, 1}, 0.01);
+    const Plane& depth = drawn.layer.optical_depth[2];
+    Profile out;
+    double first = 0, second = 0;
+    for (Eigen::Index row = 0; row < depth.rows(); ++row) {
+      const double weight = double(depth(row, 256)), at = (double(row) + 0.5) * drawn.pixel_m();
+      out.sum += weight, first += weight * at, second += weight * at * at;
+    }
+    out.variance_m2 = second / out.sum - std::pow(first / out.sum, 2);
+    return out;
+  };
+  const Profile still = profile({0, 0, 0}), across = profile({0, 0.2, 0}), along = profile({0.2, 0, 0});
+  EXPECT_NEAR(across.sum / still.sum, 1, 0.01);
+  EXPECT_NEAR((across.variance_m2 - still.variance_m2) / (2e-3 * 2e-3 / 12), 1, 0.02);
+  EXPECT_NEAR(along.sum / still.sum, 1, 1e-5);
+  EXPECT_NEAR(along.variance_m2 / still.variance_m2, 1, 1e-5);
+}
+
 TEST(ShaftLayer, NoMetalIsLostHoweverThinTheWire) {
   // Closed form: the sum over all pixels is the wire's volume, straight or bent, a tenth of a pixel or ten.
   const Eigen::Matrix3Xd straight = phantom::smooth_line({{-0.03, -0.011, 0}, {0.03, 0.017, 0}}, 0.002);

@@ -119,6 +119,16 @@ void add_treatment(const SessionModel& model, const SessionState& state, fluoro:
   add_pools(state.treatment.injury, c.map, state.blood.radius_m, at, scene);
 }
 
+std::vector<fluoro::OpaqueSection> sections_of(const data::Instrument& instrument, bool stent_left) {
+  std::vector<fluoro::OpaqueSection> sections;
+  for (const data::OpaqueStretch& o : instrument.opaque)
+    if (!stent_left || o.material != data::OpaqueMaterial::cobalt_chromium)
+      sections.push_back(section(instrument, o.from_tip_m, o.to_tip_m, o.material, o.thickness_m));
+  for (const data::Marker& m : instrument.markers)
+    sections.push_back(section(instrument, m.from_tip_m, m.from_tip_m + m.length_m, m.material, m.thickness_m));
+  return sections;
+}
+
 std::vector<fluoro::Shaft> shafts_of(const SessionModel& model, const SessionState& state) {
   std::vector<fluoro::Shaft> shafts;
   for (std::size_t t = 0; t < model.tools.size(); ++t) {
@@ -133,14 +143,12 @@ std::vector<fluoro::Shaft> shafts_of(const SessionModel& model, const SessionSta
                         .sections = {},
                         .lumen_radius_m = 0.5 * instrument.inner_diameter_m,
                         .lumen_iodine_kg_m3 = {}};
-    for (int i = 0; i < count; ++i) shaft.p_P.col(i) = s.position[rod.elements - i];
+    shaft.v_P.resize(3, count);
+    for (int i = 0; i < count; ++i)
+      shaft.p_P.col(i) = s.position[rod.elements - i], shaft.v_P.col(i) = s.velocity[rod.elements - i];
     if (static_cast<int>(t) == state.coupling.guide) fill_bore(model, state, rod, shaft);
     const bool stent_left = has_left_its_stent(model, state, t);
-    for (const data::OpaqueStretch& o : instrument.opaque)
-      if (!stent_left || o.material != data::OpaqueMaterial::cobalt_chromium)
-        shaft.sections.push_back(section(instrument, o.from_tip_m, o.to_tip_m, o.material, o.thickness_m));
-    for (const data::Marker& m : instrument.markers)
-      shaft.sections.push_back(section(instrument, m.from_tip_m, m.from_tip_m + m.length_m, m.material, m.thickness_m));
+    shaft.sections = sections_of(instrument, stent_left);
     shafts.push_back(std::move(shaft));
   }
   return shafts;

@@ -20,6 +20,9 @@ void add_treatment(const SessionModel& model, const SessionState& state, fluoro:
 /// (#cells) radius of the instruments in each: shafts and balloon.
 std::vector<double> occupied_m(const SessionModel& model, const SessionState& state);
 
+/// An instrument's radiopaque stretches and markers, from the catalogue; `stent_left`: without those of a crimped
+/// stent.
+std::vector<fluoro::OpaqueSection> sections_of(const data::Instrument& instrument, bool stent_left = false);
 /// A rod's points and its radiopaque sections from the catalogue. Empty if fewer than two nodes are in the body.
 std::vector<fluoro::Shaft> shafts_of(const SessionModel& model, const SessionState& state);
 
