@@ -257,9 +257,16 @@ class Lungs {
     const double base = diaphragm_mm(q.x(), q.z()) - q.y();
     // The mediastinum: oesophagus, spine, great vessels, heart; wider at the top. In front the lungs almost meet.
     double solid = std::fabs(x) - 17 + 12 * smooth_step(5, 60, q.z()) - 12 * smooth_step(30, 100, q.y());
-    // The spine with the muscles beside and behind it.
-    const double bulge = 1 + 0.02 * std::cos(2 * units::pi * (q.y() - 4) / 25);  // fuller beside each body
-    const double column = (std::hypot(x / 42, (q.z() - spine_z_mm(q.y()) + 18) / 42) - bulge) * 42;
+    // The spine with the muscles beside and behind it, fuller beside each body: boxy, with round corners, which fade
+    // where an oblique view looks along them. Its borders wander, each in its own way.
+    const double side = x < 0 ? 1.3 : 0, y = q.y();
+    const double wide = 38 * (1 + 0.025 * std::cos(2 * units::pi * (y - 4) / 25) + 0.05 * std::sin(y / 31 + 2 * side) +
+                              0.03 * std::sin(y / 13 + side));
+    const double column =
+        (std::pow(std::pow(std::fabs(x) / wide, 3.5) + std::pow(std::fabs(q.z() - spine_z_mm(y) + 18) / 42, 3.5),
+                  1 / 3.5) -
+         1) *
+        38;
     solid = joined(solid, column, 14);
     solid = heart_.shape().joined_to(solid, p, 1, 20);
     for (const Displacing& vessel : vessels_) solid = vessel.joined_to(solid, p, 3, 12);
