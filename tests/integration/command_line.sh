@@ -98,7 +98,7 @@ expect 3 "png is known" "$ostium" treat -o "$dir/treat.mp4"
 expect 3 "there is no view" frame --view upwards -o "$dir/frame.png"
 expect 3 "from -120.0 to 120.0 degrees" frame --lao 150 -o "$dir/frame.png"
 expect 3 "from 85.0 to 125.0 cm" frame --sid 1400 -o "$dir/frame.png"
-expect 3 "3.75, 7.5, 15 and 30" frame --rate 12 -o "$dir/frame.png"
+expect 3 "3.75, 7.5, 15 or 30" frame --rate 12 -o "$dir/frame.png"
 expect 3 "shutter" frame --shutters 0.5,0.5,0,0.5 -o "$dir/frame.png"
 expect 1 "cannot be written" frame -o /proc/nowhere/frame.png
 expect 1 "cannot be written" frame -o /proc/nowhere/frame.dcm
