@@ -98,7 +98,7 @@ expect 3 "png is known" "$ostium" treat -o "$dir/treat.mp4"
 expect 3 "there is no view" frame --view upwards -o "$dir/frame.png"
 expect 3 "from -120.0 to 120.0 degrees" frame --lao 150 -o "$dir/frame.png"
 expect 3 "from 85.0 to 125.0 cm" frame --sid 1400 -o "$dir/frame.png"
-expect 3 "3.75, 7.5, 15 and 30" frame --rate 12 -o "$dir/frame.png"
+expect 3 "3.75, 7.5, 15 or 30" frame --rate 12 -o "$dir/frame.png"
 expect 3 "shutter" frame --shutters 0.5,0.5,0,0.5 -o "$dir/frame.png"
 expect 1 "cannot be written" frame -o /proc/nowhere/frame.png
 expect 1 "cannot be written" frame -o /proc/nowhere/frame.dcm
@@ -205,7 +205,7 @@ expect 1 '"unit": "cm"' "$ostium" check --json --units cm "$folder/marked.obj"
 expect 3 "expected files of one unit" "$ostium" import "$folder/marked.obj" "$folder/other.obj" -o "$folder/case"
 expect 3 "its numbers may be mm or cm" "$ostium" run "$folder/vessel.obj" --entry 0,0,1 --towards 0,0,9
 head -c -1 "$folder/closed.obj" >"$folder/clipped.obj"
-expect 1 "the last line has no end" "$ostium" run "$folder/clipped.obj" --units mm --entry 0,0,1 --towards 0,0,9 \
+expect 1 "clipped.obj has no end" "$ostium" run "$folder/clipped.obj" --units mm --entry 0,0,1 --towards 0,0,9 \
   --script iliac-wire --seconds 0.01
 expect 3 "has no inside" "$ostium" run "$folder/marked.obj" --entry 0,0,1 --towards 0,0,9 --out "$dir/left/behind"
 [[ ! -e $dir/left ]] || { echo "a run that is refused leaves folders behind"; exit 1; }
