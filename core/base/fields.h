@@ -73,10 +73,8 @@ void for_each_field(S& s, Visit&& visit) {
 template <class V>
 concept IsShortVector = requires {
   typename V::Scalar;
-  requires V::SizeAtCompileTime >
-  0;
-  requires sizeof(V) == sizeof(typename V::Scalar) * static_cast<std::size_t>(V::SizeAtCompileTime);
-};
+}
+&&V::SizeAtCompileTime > 0 && sizeof(V) == sizeof(typename V::Scalar) * std::size_t(V::SizeAtCompileTime);
 
 /// Calls visit(path, span) for all numbers of a member in the order of the lists; each span holds one type.
 template <class T, class Visit>

@@ -77,8 +77,8 @@ struct KeptLeaves {
   int nodes = 0;
   V3<double> seen[most_in_block];    ///< m, relative to the reference
   double reach[most_in_block];       ///< m
-  int in_interval = 0;               ///< of SurfaceMoment, and
-  double share = 0, sway = 0;        ///< likewise
+  int in_interval = 0;               ///< of SurfaceMoment, as are
+  double share = 0, sway = 0;        ///< these
   double moved_m = 0;                ///< of Surface
   double to_next_m = 0;              ///< until the next interval began: what any leaf moved, at most
   Eigen::Vector3d shift_W{0, 0, 0};  ///< of SurfaceMoment

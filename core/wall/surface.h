@@ -112,13 +112,13 @@ class SurfaceEditor {
   /// Keeps a reference. `description`: what the surface was made from.
   SurfaceEditor(const SurfaceDescription& description, Surface& surface);
 
-  /// Sets one vertex in one frame; call `refit` after the last.
+  /// Sets one vertex in one frame; call `refit` after the last, and before the same one is set again.
   void place(int vertex, int frame, const Eigen::Vector3d& p_W);
   void refit();
 
   /// Makes room for a wall that gives way. Call once, before the first put_aside.
   void let_yield();
-  /// How far one vertex lies aside in all frames; call `refit_aside` after the last.
+  /// How far one vertex lies aside in all frames; call `refit_aside` after the last, likewise.
   void put_aside(int vertex, const Eigen::Vector3d& by_W);
   void refit_aside();
 
