@@ -175,18 +175,12 @@ void enter_window(int first, int last, const Strand& strand, ContactScratch& c) 
     c.window_first = first, c.window_last = last;
 }
 
-/// Changes the ties that the last solution contradicts; false if none are.
-bool flip_ties(const Strand& strand, Scratch& scratch) {
+/// Changes the ties of a strand that the last solution contradicts; the nodes that this affects.
+NodeRange flip_ties(const Strand& strand, bool slow, Scratch& scratch) {
   ContactScratch& c = *strand.contact;
   RodScratch& s = *strand.s;
-  const bool slow = c.settling >= tolerances::quick_wall_changes;
-  if (c.settling == tolerances::quick_wall_changes)
-    start_descent(strand);
-  else if (slow)
-    descend(strand);
-  ++c.changes, ++c.settling, ++scratch.counts.changes;
   const auto [first, last] = settling_nodes(s, c);
-  int first_changed = last + 1, last_changed = first - 1;
+  NodeRange affected{last + 1, first - 1};
   for (int i = first; i <= last; ++i) {
     NodeWalls& walls = c.walls[i];
     bool changed = c.changed[i];
@@ -204,39 +198,65 @@ bool flip_ties(const Strand& strand, Scratch& scratch) {
     }
     if (!changed) continue;
     renew_node(i, c, s);
-    first_changed = std::min(first_changed, i), last_changed = i;
+    affected.first = std::min(affected.first, i), affected.last = i;
   }
-  if (first_changed > last_changed) return false;
-  // A node affects the elements on both sides of it.
-  c.same = std::max(0, std::min(first_changed - 1 - s.chain.first, s.chain.elements - 1 - last_changed));
-  enter_window(first_changed, last_changed, strand, c);
-  return true;
+  return affected;
+}
+
+/// Changes the ties that the last solution contradicts; false if none are.
+bool flip_ties(Tree tree, Scratch& scratch) {
+  ContactScratch& c = *tree.front().contact;
+  const bool slow = c.settling >= tolerances::quick_wall_changes;
+  if (c.settling == tolerances::quick_wall_changes)
+    start_descent(tree);
+  else if (slow)
+    descend(tree);
+  ++c.changes, ++c.settling, ++scratch.counts.changes;
+  bool any = false;
+  for (const Strand& strand : tree) {
+    const auto [first, last] = flip_ties(strand, slow, scratch);
+    if (first > last) continue;
+    any = true;
+    if (tree.size() > 1) continue;
+    // A node affects the elements on both sides of it.
+    const BlockTridiagonal& chain = strand.s->chain;
+    c.same = std::max(0, std::min(first - 1 - chain.first, chain.elements - 1 - last));
+    enter_window(first, last, strand, c);
+  }
+  return any;
 }
 
 }  // namespace
 
-bool change_walls(const Model& model, const Strand& strand, Scratch& scratch) {
+bool change_walls(const Model& model, Tree tree, Scratch& scratch) {
+  const Strand& strand = tree.front();
   ContactScratch& c = *strand.contact;
   if (c.walls.empty()) return false;
   const bool spent = c.changes >= tolerances::max_wall_changes;
-  std::fill(c.changed.begin(), c.changed.end(), 0);
-  look_ahead(strand);
+  for (const Strand& part : tree) {
+    std::fill(part.contact->changed.begin(), part.contact->changed.end(), 0);
+    look_ahead(part);
+  }
   // While many ties settle, the walls stay as they were seen: a trial solution leads to places that are never reached.
   const auto contradicted = [&] {
-    return c.settling < tolerances::quick_wall_changes ? any_wrong_now(model, strand, scratch) : any_wrong(strand, c);
+    const bool quick = c.settling < tolerances::quick_wall_changes;
+    bool any = false;
+    for (const Strand& part : tree) any |= quick ? any_wrong_now(model, part, scratch) : any_wrong(part, *part.contact);
+    return any;
   };
   if (c.window_first >= 0) {
-    if (!spent && contradicted()) return flip_ties(strand, scratch);
+    if (!spent && contradicted()) return flip_ties(tree, scratch);
     leave_window(strand, scratch);
     look_ahead(strand);
   }
   if (spent) return false;
   if (c.settling >= tolerances::quick_wall_changes) {
-    if (contradicted()) return flip_ties(strand, scratch);
+    if (contradicted()) return flip_ties(tree, scratch);
     c.settling = 0;
   }
-  const bool met = model.sweep && follow_far(model, strand, scratch);
-  return (contradicted() || met) && flip_ties(strand, scratch);
+  bool met = false;
+  for (const Strand& part : tree) met |= model.sweep && follow_far(model, part, scratch);
+  return (contradicted() || met) && flip_ties(tree, scratch);
 }
 
 namespace {

@@ -32,8 +32,9 @@ void expect_touches(const Model& model, const Strand& strand, Scratch& scratch);
 void tie_to_walls(const Strand& strand);
 
 /// After a solve: releases nodes that their wall would pull, ties those behind one. True if anything changed: then the
-/// chain is to be solved again; it has been updated except for ContactScratch::same elements at either end.
-bool change_walls(const Model& model, const Strand& strand, Scratch& scratch);
+/// chain is to be solved again; it has been updated except for ContactScratch::same elements at either end. A strand
+/// with branches is settled with them; it counts for all.
+bool change_walls(const Model& model, Tree tree, Scratch& scratch);
 
 /// Once a strand has converged: where a plane presses a node deep and no wall faces it like that from where the node
 /// is, finds its walls anew. Trial solutions on several sides of a ridge may have left planes that hold a node from all

@@ -16,15 +16,13 @@ struct EndSlopes {
   double at_anchor = 0, at_ahead = 0;
 };
 
-EndSlopes end_slopes(const ContactScratch& c, const RodScratch& s) {
-  EndSlopes slopes;
+void add_end_slopes(const ContactScratch& c, const RodScratch& s, EndSlopes& slopes) {
   const auto [first, last] = settling_nodes(s, c);
   for (int i = first; i <= last; ++i) {
     const V3<double> d = load3<double>(c.ahead, i) - load3<double>(c.anchor, i);
     slopes.at_anchor += dot(load3<double>(c.anchor_push, i), d);
     slopes.at_ahead += dot(load3<double>(c.ahead_push, i), d);
   }
-  return slopes;
 }
 
 void list_planes_ahead(const RodScratch& s, ContactScratch& c) {
@@ -43,9 +41,11 @@ void list_planes_ahead(const RodScratch& s, ContactScratch& c) {
 }
 
 /// Slope of the whole energy at the share `part` of the direction.
-double slope(const EndSlopes& slopes, double part, const ContactScratch& c) {
+double slope(const EndSlopes& slopes, double part, Tree tree) {
   double sum = slopes.at_anchor + part * (slopes.at_ahead - slopes.at_anchor);
-  for (const ContactScratch::PlaneAhead& w : c.planes_ahead) sum -= largest(0, w.push + part * w.change) * w.along;
+  for (const Strand& strand : tree)
+    for (const ContactScratch::PlaneAhead& w : strand.contact->planes_ahead)
+      sum -= largest(0, w.push + part * w.change) * w.along;
   return sum;
 }
 
@@ -66,29 +66,35 @@ void look_ahead(const Strand& strand) {
   }
 }
 
-void start_descent(const Strand& strand) {
-  ContactScratch& c = *strand.contact;
-  std::swap(c.anchor, c.ahead);
-  std::swap(c.anchor_push, c.ahead_push);
+void start_descent(Tree tree) {
+  for (const Strand& strand : tree) {
+    ContactScratch& c = *strand.contact;
+    std::swap(c.anchor, c.ahead);
+    std::swap(c.anchor_push, c.ahead_push);
+  }
 }
 
-void descend(const Strand& strand) {
-  const RodScratch& s = *strand.s;
-  ContactScratch& c = *strand.contact;
-  const EndSlopes slopes = end_slopes(c, s);
-  list_planes_ahead(s, c);
+void descend(Tree tree) {
+  EndSlopes slopes;
+  for (const Strand& strand : tree) {
+    add_end_slopes(*strand.contact, *strand.s, slopes);
+    list_planes_ahead(*strand.s, *strand.contact);
+  }
   double low = 0, high = 1;
-  if (slope(slopes, 1, c) <= 0) low = 1;
+  if (slope(slopes, 1, tree) <= 0) low = 1;
   while (high - low > tolerances::least_descent) {
     const double middle = (low + high) / 2;
-    (slope(slopes, middle, c) > 0 ? high : low) = middle;
+    (slope(slopes, middle, tree) > 0 ? high : low) = middle;
   }
   const double part = low > 0 ? low : high;
-  const auto [first, last] = settling_nodes(s, c);
-  for (int i = first; i <= last; ++i) {
-    const V3<double> from = load3<double>(c.anchor, i), push = load3<double>(c.anchor_push, i);
-    store3(c.anchor, i, madd(part, load3<double>(c.ahead, i) - from, from));
-    store3(c.anchor_push, i, madd(part, load3<double>(c.ahead_push, i) - push, push));
+  for (const Strand& strand : tree) {
+    ContactScratch& c = *strand.contact;
+    const auto [first, last] = settling_nodes(*strand.s, c);
+    for (int i = first; i <= last; ++i) {
+      const V3<double> from = load3<double>(c.anchor, i), push = load3<double>(c.anchor_push, i);
+      store3(c.anchor, i, madd(part, load3<double>(c.ahead, i) - from, from));
+      store3(c.anchor_push, i, madd(part, load3<double>(c.ahead_push, i) - push, push));
+    }
   }
 }
 

@@ -68,13 +68,30 @@ void resize_layer(int elements, int own_nodes, Layer& l) {
   l.host.resize(nodes);
 }
 
-/// Sizes the nest of the rods that may be around or inside rod `lead`.
+bool is_nested(const Model& model, int outer, int inner) {
+  return std::any_of(model.nestings.begin(), model.nestings.end(),
+                     [&](const Nesting& n) { return n.outer == outer && n.inner == inner; });
+}
+
+/// Whether the rod may lie beside another one in the lumen of a third, so that a chain forks.
+bool may_branch(const Model& model, int rod) {
+  return std::any_of(model.nestings.begin(), model.nestings.end(), [&](const Nesting& own) {
+    return own.inner == rod &&
+           (model.fork_from < 2 || std::any_of(model.nestings.begin(), model.nestings.end(), [&](const Nesting& other) {
+              return other.outer == own.outer && other.inner != rod && !is_nested(model, rod, other.inner) &&
+                     !is_nested(model, other.inner, rod);
+            }));
+  });
+}
+
+/// Sizes the nest of the rods that may be around or inside rod `lead`, or of the branch that it leads.
 void resize_nest(const Model& model, int lead, Nest& nest) {
   std::vector<int> members{lead};
   for (const Nesting& n : model.nestings)
     if (n.outer == lead) members.push_back(n.inner);
   nest.members.reserve(max_layers);
-  if (members.size() == 1) return;
+  const bool branches = may_branch(model, lead);
+  if (members.size() == 1 && !branches) return;
   // One extra element for each rod end that falls inside an element of the rod around it.
   int elements = 0, own_nodes = 0;
   bool damped = false;
@@ -85,6 +102,7 @@ void resize_nest(const Model& model, int lead, Nest& nest) {
   }
   const int layers = std::min<int>(static_cast<int>(members.size()), max_layers);
   resize(nest.s, elements, layers - 1, damped);
+  for (int rolls = 0; branches && rolls < layers; ++rolls) nest.factors.resize(elements, rolls);
   nest.spans.reserve(layers);
   nest.layers.resize(layers);
   for (Layer& layer : nest.layers) {
@@ -117,11 +135,12 @@ void resize_nest(const Model& model, int lead, Nest& nest) {
 
 Scratch::Scratch(const Model& model) : rods(model.rods.size()), contacts(model.rods.size()), nests(model.rods.size()) {
   check(model);
-  lead.resize(model.rods.size());
+  for (std::vector<int>* of_rods : {&lead, &around, &branch}) of_rods->resize(model.rods.size());
+  exits.resize(model.rods.size());
   was_in_body.resize(model.rods.size());
   fed_m.resize(model.rods.size());
   before_drive.resize(model.rods.size());
-  strands.reserve(model.rods.size());
+  strands.reserve(model.rods.size() + 1);
   if (model.rods_touch) rod_contacts.reserve(tolerances::max_rod_contacts);
   for (const auto& surface : model.surfaces) surfaces.emplace_back(*surface);
   for (std::size_t r = 0; r < model.rods.size(); ++r) {

@@ -11,38 +11,6 @@ namespace ostium::core {
 
 namespace {
 
-bool is_nested(const Model& model, int outer, int inner) {
-  return std::any_of(model.nestings.begin(), model.nestings.end(),
-                     [&](const Nesting& n) { return n.outer == outer && n.inner == inner; });
-}
-
-/// A rod joins the strand of the last rod around it, if it is nested in all of that strand's rods.
-void find_strands(const Model& model, State& state, Scratch& scratch) {
-  scratch.strands.clear();
-  const int rods = static_cast<int>(model.rods.size());
-  for (int r = 0; r < rods; ++r) {
-    scratch.nests[r].members.clear();
-    scratch.lead[r] = r;
-    if (!in_body(model.rods[r], state.rods[r])) continue;
-    for (int o = r - 1; o >= 0; --o) {
-      if (!in_body(model.rods[o], state.rods[o]) || !is_nested(model, o, r)) continue;
-      const std::vector<int>& members = scratch.nests[scratch.lead[o]].members;
-      const bool held = std::all_of(members.begin(), members.end(), [&](int m) { return is_nested(model, m, r); });
-      if (held && static_cast<int>(members.size()) < max_layers) scratch.lead[r] = scratch.lead[o];
-      break;
-    }
-    scratch.nests[scratch.lead[r]].members.push_back(r);
-  }
-  for (int r = 0; r < rods; ++r) {
-    Nest& nest = scratch.nests[r];
-    if (nest.members.empty()) continue;
-    const bool alone = nest.members.size() == 1;
-    if (alone) state.rods[r].exposed = state.rods[r].first;
-    scratch.strands.push_back({r, alone ? &scratch.rods[r] : &nest.s, alone ? &state.rods[r] : &nest.own,
-                               alone ? &scratch.contacts[r] : &nest.contact, alone ? nullptr : &nest});
-  }
-}
-
 /// Whether the rods are arranged as in the last step. Interpolation and cells depend on this alone.
 bool lie_as_before(const State& state, Nest& nest) {
   bool same = true;
@@ -51,7 +19,7 @@ bool lie_as_before(const State& state, Nest& nest) {
     if (k < nest.layer_count) {
       const Layer& layer = nest.layers[k];
       const RodState& own = state.rods[layer.rod];
-      now = {layer.rod, own.first, own.exposed, layer.inserted_m};
+      now = {layer.rod, own.first, own.exposed, layer.inserted_m, nest.fork_m};
     }
     same = same && now == nest.laid[k];
     nest.laid[k] = now;
@@ -62,9 +30,9 @@ bool lie_as_before(const State& state, Nest& nest) {
 /// The part of the rod's fields that belongs to a span.
 struct Part {
   const Span& span;
-  int skipped;  ///< 1: its first node belongs to the span before
+  int skipped;  ///< 1: its first node belongs to the span before, or to the trunk
 
-  explicit Part(const Nest& nest, const Span& s) : span(s), skipped(&s == &nest.spans.front() ? 0 : 1) {}
+  explicit Part(const Nest& nest, const Span& s) : span(s), skipped(&s == &nest.spans.front() && !nest.trunk ? 0 : 1) {}
   int first() const { return span.first; }
   int end() const { return span.first + span.elements; }
 
@@ -95,6 +63,11 @@ void gather(const State& state, Scratch& scratch, Nest& nest) {
   nest.own.first = 0;
   nest.s.inputs = scratch.rods[lead].inputs;
   nest.s.inputs.tip = scratch.rods[last].inputs.tip;
+  if (nest.trunk) {
+    nest.s.inputs.base = {.hold = Hold::pinned};
+    nest.own.base = {.hold = Hold::pinned};
+    gather_root(nest);
+  }
   nest.s.scheme = TimeScheme::bdf2;
   for (int r : nest.members)
     if (scratch.rods[r].scheme == TimeScheme::fresh) nest.s.scheme = TimeScheme::fresh;
@@ -152,41 +125,78 @@ double middle_of_own(const Rod& rod, const RodState& s, int j, double reach_m) {
   return (from + s.inserted_m - rod.node_from_tip_m[j + 1]) / 2;
 }
 
+namespace {
+
+/// The branch inside which the rod goes on beyond the trunk; null: none.
+const Nest* inside_branch(const Nest& trunk, int rod) {
+  for (int b = 0; b < trunk.branch_count; ++b) {
+    const std::vector<int>& members = trunk.branches[b]->members;
+    if (std::find(members.begin() + 1, members.end(), rod) != members.end()) return trunk.branches[b];
+  }
+  return nullptr;
+}
+
+/// Sets which of a rod's nodes and elements lie along the nest: those inside others, on its side of a fork.
+void share_out(const Model& model, const State& state, const Scratch& scratch, const Nest& nest, Layer& layer) {
+  const Rod& rod = model.rods[layer.rod];
+  const RodState& own = state.rods[layer.rod];
+  const int covered = std::min(own.exposed, rod.elements);
+  layer.first_node = layer.first_element = own.first;
+  layer.end_node = covered + 1, layer.end_element = covered;
+  const Nest* branch = nest.trunk ? &nest : inside_branch(nest, layer.rod);
+  if (!branch) return;
+  int node = own.first, element = own.first;
+  while (node < layer.end_node && own.inserted_m - rod.node_from_tip_m[node] <= branch->fork_m) ++node;
+  while (element < layer.end_element &&
+         middle_of_own(rod, own, element, scratch.exits[layer.rod].depth_m) <= branch->fork_m)
+    ++element;
+  if (nest.trunk)
+    layer.first_node = node, layer.first_element = element;
+  else
+    layer.end_node = node, layer.end_element = element;
+}
+
+/// Lays a nest's chain: spans, cells, and the rods' state on it.
+void assemble(const Model& model, State& state, Scratch& scratch, Nest& nest) {
+  nest.step_s = scratch.step_s;
+  lay_spans(model, scratch, state, nest);
+  nest.moved = !lie_as_before(state, nest);
+  for (int k = 0; k < nest.layer_count; ++k)
+    if (nest.layers[k].end == 0) end_inside(nest, nest.layers[k]);
+  if (nest.moved) {
+    lay_layers(model, scratch, nest);
+    for (int e = 0; e < nest.s.inside.elements; ++e) {
+      const double length = nest.s.inside.length.at(0)[e];
+      nest.nearness.at(0)[e] = length / (length + tolerances::bore_smooth_m);
+    }
+  }
+  gather(state, scratch, nest);
+  nest.s.chain.roll_count = nest.layer_count - 1;
+  for (int k = 0; k < nest.layer_count; ++k) {
+    Layer& layer = nest.layers[k];
+    layer.base_frame = state.rods[layer.rod].base.frame();
+    layer.base_turn = from_eigen(nest.step_s * scratch.rods[layer.rod].inputs.base.turn_rate_W_rad_s);
+    if (!nest.moved) continue;
+    share_out(model, state, scratch, nest, layer);
+    if (k == 0) continue;
+    const Rod& rod = model.rods[layer.rod];
+    const RodState& own = state.rods[layer.rod];
+    int hint = own.first;
+    for (int e = 0; e < layer.covered; ++e)
+      place((nest.depth.at(0)[e] + nest.depth.at(0)[e + 1]) / 2, rod.elements - 1, hint,
+            [&](int j) { return middle_of_own(rod, own, j, scratch.exits[layer.rod].depth_m); }, e, layer.from_own);
+    find_hosts(model, nest, k);
+  }
+}
+
+}  // namespace
+
 void arrange(const Model& model, const std::vector<char>& was_in_body, State& state, Scratch& scratch) {
-  find_strands(model, state, scratch);
-  for (Strand& strand : scratch.strands) {
+  find_strands(model, was_in_body, state, scratch);
+  for (const Strand& strand : scratch.strands) {
     if (!strand.nest) continue;
-    Nest& nest = *strand.nest;
-    nest.step_s = scratch.step_s;
-    if (!was_in_body[strand.lead])
-      lay_over(scratch.rods[strand.lead].inside, model.rods[nest.members[1]], state.rods[nest.members[1]],
-               state.rods[strand.lead]);
-    lay_spans(model, scratch, state, nest);
-    nest.moved = !lie_as_before(state, nest);
-    for (int k = 0; k < nest.layer_count; ++k)
-      if (nest.layers[k].end == 0) end_inside(nest, nest.layers[k]);
-    if (nest.moved) {
-      lay_layers(model, scratch, nest);
-      for (int e = 0; e < nest.s.inside.elements; ++e) {
-        const double length = nest.s.inside.length.at(0)[e];
-        nest.nearness.at(0)[e] = length / (length + tolerances::bore_smooth_m);
-      }
-    }
-    gather(state, scratch, nest);
-    nest.s.chain.roll_count = nest.layer_count - 1;
-    for (int k = 1; k < nest.layer_count; ++k) {
-      Layer& layer = nest.layers[k];
-      const Rod& rod = model.rods[layer.rod];
-      const RodState& own = state.rods[layer.rod];
-      layer.base_turn = from_eigen(nest.step_s * scratch.rods[layer.rod].inputs.base.turn_rate_W_rad_s);
-      if (!nest.moved) continue;
-      const double reach = nest.depth.at(0)[layer.covered];
-      int hint = own.first;
-      for (int e = 0; e < layer.covered; ++e)
-        place((nest.depth.at(0)[e] + nest.depth.at(0)[e + 1]) / 2, rod.elements - 1, hint,
-              [&](int j) { return middle_of_own(rod, own, j, reach); }, e, layer.from_own);
-      find_hosts(model, nest, k);
-    }
+    assemble(model, state, scratch, *strand.nest);
+    if (strand.nest->trunk) weigh_root(*strand.nest, *strand.nest->trunk);
   }
 }
 

@@ -35,11 +35,12 @@ void cut_cells(const Rod& rod, int last, Nest& nest, int k) {
     return integrate(rod.sections, a, std::max(a, b), hint);
   };
   for (int i = 0; i <= last; ++i) {
-    const double behind = i > 0 ? chain.length.at(0)[i - 1] / 2 : 0, length = chain.joint_length.at(0)[i];
+    const double behind = (i > 0 ? chain.length.at(0)[i - 1] : nest.behind_m) / 2, length = chain.joint_length.at(0)[i];
     const double from = nest.depth.at(0)[i] - behind;
     const SectionIntegrals cell = stretch(from, from + length);
     const double part = std::clamp((layer.inserted_m - from) / length, tolerances::least_cover, 1.0);
-    layer.mass.at(0)[i] = cell.mass;
+    // What lies behind the first node of a branch is the trunk's.
+    layer.mass.at(0)[i] = i > 0 || !nest.trunk ? cell.mass : stretch(nest.fork_m, from + length).mass;
     Eigen::Vector3d compliance = cell.compliance, rest = cell.rest_angle / (part * length);
     if (part < 1) {
       const SectionIntegrals tip = integrate(rod.sections, 0, part * length);
@@ -80,7 +81,8 @@ void lay_layers(const Model& model, const Scratch& scratch, Nest& nest) {
   Rod& chain = nest.s.inside;
   for (int k = 0; k < nest.layer_count; ++k) {
     Layer& layer = nest.layers[k];
-    const Rod& rod = k == 0 ? scratch.rods[layer.rod].inside : model.rods[layer.rod];
+    const bool at_introducer = k == 0 && !nest.trunk;
+    const Rod& rod = at_introducer ? scratch.rods[layer.rod].inside : model.rods[layer.rod];
     if (BendingKnots* knots = curve_knots(layer.law)) {  // a layer's law may have been made for another rod
       const BendingKnots* own = curve_knots(rod.law);
       *knots = own ? *own : BendingKnots{};
@@ -94,13 +96,13 @@ void lay_layers(const Model& model, const Scratch& scratch, Nest& nest) {
       const int first = rod.elements - (layer.end - layer.covered);
       copy_entries(rod.rotary_inertia, first, rod.elements, chain.rotary_inertia, layer.covered);
       copy_entries(rod.radius, first + (k > 0), rod.elements + 1, chain.radius, layer.covered + (k > 0));
-      const int from = k == 0 ? 0 : std::min(layer.covered + 2, layer.end + 1);  // joints
+      const int from = at_introducer ? 0 : std::min(layer.covered + 2, layer.end + 1);  // joints
       own = from - 1;
       copy_entries(rod.rest_curvature, first + from - layer.covered, rod.elements + 1, layer.rest, from);
       copy_entries(rod.mass, first + from - layer.covered, rod.elements + 1, layer.mass, from);
       copy_law(rod.law, first + from - layer.covered, rod.elements + 1, layer.law, from);
     }
-    if (k > 0) cut_cells(rod, own, nest, k);
+    if (!at_introducer) cut_cells(rod, own, nest, k);
     // If the rod ends inside another one, the node behind its last joint has no mass of it.
     if (!protrudes && own < chain.elements) layer.mass.at(0)[own + 1] = 0;
     const int nodes = own + 1;

@@ -35,6 +35,7 @@ void find_centreline(Nest& nest) {
   const int N = chain.elements;
   store3(nest.tangent, 0, director3(load4<double>(q, 0)));
   store3(nest.tangent, N, director3(load4<double>(q, N - 1)));
+  if (N == 1) store3(nest.bend, 1, V3<double>{});  // of a branch that has just left
   store3(nest.bend, 0, load3<double>(nest.bend, 1));
   store3(nest.bend, N, load3<double>(nest.bend, N - 1));
 }
@@ -44,6 +45,33 @@ namespace {
 template <class T>
 V3<T> across(const V3<T>& t, const V3<T>& v) {
   return madd(T{} - dot(t, v), t, v);
+}
+
+/// Internal force in a layer's part of the chain's first element; the outermost one has what the others leave.
+V3<double> first_force(const Nest& nest, int k) {
+  if (k > 0) return load3<double>(nest.layers[k].force, 0);
+  V3<double> force = load3<double>(nest.own.force, 0);
+  for (int inner = 1; inner < nest.layer_count; ++inner)
+    if (nest.layers[inner].covered > 0) force = force - load3<double>(nest.layers[inner].force, 0);
+  return force;
+}
+
+/// How a layer of a trunk goes on in a branch: the direction and the force of the first element there, and the moment
+/// at its root. False if it does not.
+struct Beyond {
+  V3<double> d3{}, force{}, moment{};
+};
+bool goes_on(const Nest& trunk, int k, Beyond& out) {
+  for (int b = 0; b < trunk.branch_count; ++b) {
+    const Nest& branch = *trunk.branches[b];
+    for (int j = 0; j < branch.layer_count; ++j) {
+      if (branch.beside[j] != k) continue;
+      out = {director3(load4<double>(branch.own.orientation, 0)), first_force(branch, j),
+             load3<double>(branch.layers[j].moment, 0)};
+      return true;
+    }
+  }
+  return false;
 }
 
 }  // namespace
@@ -57,7 +85,13 @@ void find_layer_forces(const Model& model, Nest& nest) {
     // Force at the end of the covered part, where the rod ends or leaves: along d3 and across.
     V3<double> d3_beyond = load3<double>(nest.tangent, last), across_beyond{};
     double tension_beyond = 0;
-    if (layer.end > 0) {
+    if (Beyond on; goes_on(nest, k, on)) {
+      d3_beyond = on.d3;
+      const V3<double> sum = director3(load4<double>(nest.own.orientation, last - 1)) + on.d3;
+      store3(nest.tangent, last, (1 / std::sqrt(dot(sum, sum))) * sum);
+      tension_beyond = dot(on.d3, on.force), across_beyond = across(on.d3, on.force);
+      store3(layer.moment, last, on.moment);
+    } else if (layer.end > 0) {
       V3<double> force = load3<double>(nest.own.force, last);
       for (int inner = k + 1; inner < nest.layer_count; ++inner)
         if (nest.layers[inner].covered > last) force = force - load3<double>(nest.layers[inner].force, last);
@@ -131,11 +165,7 @@ void find_layer_forces(const Model& model, Nest& nest) {
 
 void base_load(const Model& model, const Nest& nest, int k, Eigen::Vector3d& force_W_N, Eigen::Vector3d& moment_W_Nm) {
   const Layer& layer = nest.layers[k];
-  V3<double> force = k > 0 ? load3<double>(layer.force, 0) : load3<double>(nest.own.force, 0);
-  if (k == 0)
-    for (int inner = 1; inner < nest.layer_count; ++inner)
-      if (nest.layers[inner].covered > 0) force = force - load3<double>(nest.layers[inner].force, 0);
-  force_W_N = -to_eigen(force) - layer.mass.at(0)[0] * model.gravity_W;
+  force_W_N = -to_eigen(first_force(nest, k)) - layer.mass.at(0)[0] * model.gravity_W;
   moment_W_Nm = -layer.moment[0];
 }
 

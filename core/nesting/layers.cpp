@@ -21,6 +21,7 @@ namespace {
 
 EndJoints joints_of_layer(const Nest& nest, const Layer& layer) {
   EndJoints ends = joints_of(nest.s.inputs);
+  ends.base = ends.base || nest.trunk != nullptr;
   ends.tip = ends.tip && layer.end == nest.s.inside.elements;
   return ends;
 }
@@ -31,7 +32,7 @@ void for_joints(const State& state, const Nest& nest, const Layer& layer, Visit&
   const Field<4>& q = layer.roll < 0 ? nest.s.orientation : layer.orientation;
   const EndJoints ends = joints_of_layer(nest, layer);
   const int last = layer.end > 0 ? layer.end : layer.covered;
-  if (ends.base) visit(double{}, 0, state.rods[layer.rod].base.frame(), load4<double>(q, 0), layer.covered > 0);
+  if (ends.base) visit(double{}, 0, layer.base_frame, load4<double>(q, 0), layer.covered > 0 || nest.trunk != nullptr);
   const int shared = layer.end > 0 ? layer.covered + 1 : last;  // earlier joints couple frames that are inside others
   const auto between = [&](bool inside) {
     return [&, inside]<class T>(T t, int i) { visit(t, i, load4<T>(q, i - 1), load4<T>(q, i), inside); };
@@ -53,12 +54,13 @@ Joint<T> damped_joint(const Law& law, const Nest& nest, const Layer& layer, int 
   Joint<T> out = joint<T>(law, load3<T>(layer.rest, i), load<T>(nest.s.inside.joint_length.at(0) + i), a, b, i,
                           splat<T>(history ? layer.damping_s : 0), splat<T>(1.5 / nest.step_s), offset);
   if (!inside || layer.viscous == 0 || scale == 0) return out;
+  const Field<3>& turn = layer.roll < 0 ? nest.s.turn : layer.turn;
   const V3<T> before = [&] {
     if constexpr (sizeof(T) == sizeof(double))
       if (i == 0) return layer.base_turn;
-    return load3<T>(layer.turn, i > 0 ? i - 1 : 0);
+    return load3<T>(turn, i > 0 ? i - 1 : 0);
   }();
-  const V3<T> turning = load3<T>(layer.turn, i) - before;
+  const V3<T> turning = load3<T>(turn, i) - before;
   out.moment = madd(splat<T>(layer.viscous), out.stiffness * turning, out.moment);
   out.stiffness = splat<T>(1 + layer.viscous) * out.stiffness;
   return out;
@@ -132,6 +134,8 @@ void clear(int covered, int elements, Layer& layer, Roll& roll) {
             const Joint<T> j = damped_joint(law, nest, layer, i, a, b, inside, 1);
             store6(chain.joint_stiffness, i, load6<T>(chain.joint_stiffness, i) + j.stiffness);
             store3(chain.joint_moment, i, load3<T>(chain.joint_moment, i) + j.moment);
+            if constexpr (sizeof(T) == sizeof(double))
+              if (i == 0) layer.base_stiffness = j.stiffness, layer.base_moment = j.moment;
             if (!roll || !inside) return;
             const V3<T> da = director3(a), db = director3(b), Ha = j.stiffness * da, Hb = j.stiffness * db;
             const T half = splat<T>(geometric);

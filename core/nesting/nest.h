@@ -7,6 +7,9 @@
 ///   catheter  o-----o-----o-----o                 span 0: nodes and elements of the catheter
 ///   wire      - - - - - - - - - o--o----o----o    span 1: of the wire, distal to the catheter
 ///
+/// Rods may lie side by side in one lumen. Where two of them have left it, the chain forks there (strands.cpp): the
+/// trunk ends at the lumen's tip, and each branch is a nest of its own that begins at the trunk's last node.
+///
 /// - Within another rod a rod is a layer: it adds mass to nodes, bending to joints, and one unknown to each element:
 ///   its roll about the common tangent (`Roll` in solver/block_tridiagonal.h), found with everything else in one direct
 ///   solve. So torque reaches the tip, and a curved rod turns within a curved one, in a single step (layers.cpp).
@@ -28,6 +31,10 @@ namespace ostium::core {
 /// `was_in_body[r]`: before that.
 void arrange(const Model& model, const std::vector<char>& was_in_body, State& state, Scratch& scratch);
 
+// --- strands.cpp -----------------------------------------------------------------------------------------------------
+/// Finds the strands of this step: single rods, nests, and after each nest that forks its branches.
+void find_strands(const Model& model, const std::vector<char>& was_in_body, State& state, Scratch& scratch);
+
 // --- arrange.cpp, for one nest, whose outermost rod is strand.lead ---------------------------------------------------
 /// Copies the chain's state after the step back to the rods; after the commit.
 void take_apart(const Nest& nest, State& state);
@@ -42,6 +49,8 @@ double middle_of_own(const Rod& rod, const RodState& state, int j, double reach_
 // --- spans.cpp -------------------------------------------------------------------------------------------------------
 /// Lays an outer rod that has just entered the body along the rod inside it.
 void lay_over(const Rod& inside, const Rod& inner, const RodState& along, RodState& state);
+/// Finds where the rods of a nest leave those around them.
+void find_exits(const Model& model, const State& state, const Nest& nest, Scratch& scratch);
 /// Sets a nest's spans, their element lengths, and the depths of their nodes along the chain.
 void lay_spans(const Model& model, Scratch& scratch, State& state, Nest& nest);
 
@@ -50,6 +59,18 @@ void lay_spans(const Model& model, Scratch& scratch, State& state, Nest& nest);
 void end_inside(const Nest& nest, Layer& layer);
 /// Mass, inertia, stiffness and rest curvature of all layers, cell by cell.
 void lay_layers(const Model& model, const Scratch& scratch, Nest& nest);
+
+// --- root.cpp, for a branch of a fork --------------------------------------------------------------------------------
+/// Gives the trunk's last node the mass and the length of the branch's first, which is the same; after both were laid.
+void weigh_root(const Nest& branch, Nest& trunk);
+/// Takes over the motion of the trunk's last node; after both were gathered.
+void gather_root(Nest& branch);
+/// Holds its layers by the trunk's frames, as they are in the iterate.
+void turn_root(Nest& branch);
+/// Holds its first node where the trunk's last one goes without internal force; after the trunk was constrained.
+void hold_root(Nest& branch);
+/// Joins its layers to the trunk's, for solve_fork; after linearise_layers.
+void join_root(Nest& branch);
 
 // --- creep.cpp -------------------------------------------------------------------------------------------------------
 /// Gives the layers' laws the creep of their rods (core/rod/relaxation.h).

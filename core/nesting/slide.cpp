@@ -104,7 +104,8 @@ void commit_slides(const Model& model, const Nest& nest, State& state) {
     if (!layer.slides) continue;
     const Rod& rod = model.rods[layer.rod];
     RodState& own = state.rods[layer.rod];
-    for (int i = own.first + 1; i < rod.nodes(); ++i) {
+    const int end = layer.end_node > own.exposed ? rod.nodes() : layer.end_node;  // beyond it, none is left
+    for (int i = std::max(own.first + 1, layer.first_node); i < end; ++i) {
       Slip slip;
       if (i <= own.exposed && own.contact_force[i].squaredNorm() > 0) {
         const int e = std::min(layer.to_nodes.before[i], layer.covered - 1);

@@ -84,40 +84,58 @@ void lay_over(const Rod& inside, const Rod& inner, const RodState& along, RodSta
     swing(load3<double>(s.position, i + 1) - load3<double>(s.position, i), i, s);
 }
 
+void find_exits(const Model& model, const State& state, const Nest& nest, Scratch& scratch) {
+  Exit last[1 + max_branches];  // along the trunk and along each branch; depth_m 0: it has none yet
+  for (const int r : nest.members) {
+    const RodState& own = state.rods[r];
+    Exit& reached = last[scratch.branch[r]];
+    if (r == nest.members.front()) {
+      scratch.exits[r] = {own.first, 0, r, false};
+      reached = {0, scratch.rods[r].inside.total_length_m, r, false};
+      continue;
+    }
+    if (reached.depth_m == 0) reached = last[0];
+    const int first = first_exposed(model.rods[r], own, own.inserted_m - reached.depth_m);
+    scratch.exits[r] = {first, reached.depth_m, reached.from, false};
+    if (first < model.rods[r].elements) reached = {0, own.inserted_m, r, false};
+  }
+}
+
 void lay_spans(const Model& model, Scratch& scratch, State& state, Nest& nest) {
   nest.spans.clear();
   Rod& chain = nest.s.inside;
   double reach = 0;
   int at = 0;
   for (std::size_t k = 0; k < nest.members.size(); ++k) {
-    bool torn = false;
     const int r = nest.members[k];
-    const Rod& rod = k == 0 ? scratch.rods[r].inside : model.rods[r];
+    const bool at_introducer = k == 0 && !nest.trunk;
+    const Rod& rod = at_introducer ? scratch.rods[r].inside : model.rods[r];
     RodState& own = state.rods[r];
+    Exit& exit = scratch.exits[r];
     Layer& layer = nest.layers[k];
     layer.fed_m = scratch.fed_m[r];
     layer.rod = r, layer.roll = static_cast<int>(k) - 1, layer.inserted_m = own.inserted_m;
     layer.covered = at;
-    if (k == 0) {
+    const double protrudes = own.inserted_m - exit.depth_m;
+    if (at_introducer) {
       own.exposed = own.first;
       layer.inserted_m = rod.total_length_m;
-    } else {
-      const double protrudes = own.inserted_m - reach;
-      const int first = first_exposed(rod, own, protrudes);
-      const int root = nest.spans.back().rod;
-      const V3<double> tip = load3<double>(state.rods[root].position, model.rods[root].elements);
-      torn = expose(rod, first, first < rod.elements ? protrudes - rod.node_from_tip_m[first + 1] : 0, tip, own);
+    } else if (!nest.trunk) {
+      const V3<double> tip = load3<double>(state.rods[exit.from].position, model.rods[exit.from].elements);
+      exit.torn = expose(rod, exit.first,
+                         exit.first < rod.elements ? protrudes - rod.node_from_tip_m[exit.first + 1] : 0, tip, own);
     }
     const int first = own.exposed, count = rod.elements - first;
+    const bool in_branch = nest.branch_count > 0 && scratch.branch[r] > 0;
     layer.end = at + count;
-    if (count == 0) {
+    if (count == 0 || in_branch) {
       layer.end = 0;
       continue;
     }
-    nest.spans.push_back({r, first, at, count, torn});
+    nest.spans.push_back({r, first, at, count, exit.torn});
     copy_entries(rod.length, first, rod.elements, chain.length, at);
-    if (k > 0) chain.length.at(0)[at] = own.inserted_m - reach - rod.node_from_tip_m[first + 1];
-    double depth = reach;
+    if (!at_introducer) chain.length.at(0)[at] = protrudes - rod.node_from_tip_m[first + 1];
+    double depth = exit.depth_m;
     for (int e = at; e < at + count; ++e) {
       nest.depth.at(0)[e] = depth;
       depth += chain.length.at(0)[e];
@@ -126,9 +144,13 @@ void lay_spans(const Model& model, Scratch& scratch, State& state, Nest& nest) {
     at += count;
   }
   chain.first = 0, chain.elements = at;
-  chain.total_length_m = reach;
+  chain.total_length_m = reach - nest.fork_m;
   nest.layer_count = static_cast<int>(nest.members.size());
   set_joint_lengths(chain);
+  if (!nest.trunk) return;
+  const Rod& trunk = nest.trunk->s.inside;
+  nest.behind_m = trunk.length.at(0)[trunk.elements - 1];
+  chain.joint_length.at(0)[0] += nest.behind_m / 2;
 }
 
 }  // namespace ostium::core

@@ -16,23 +16,24 @@ namespace {
 
 /// Positions of the rod's nodes and element middles on the chain.
 void locate(const Rod& rod, const RodState& own, const Nest& nest, Layer& layer) {
-  const int first = own.first, last = std::min(own.exposed, rod.elements);
   const int elements = nest.s.inside.elements;
   const double* depth = nest.depth.at(0);
   const double reach = depth[layer.covered];
   int e = 0, m = 0;
   const auto middle = [&](int i) { return (depth[i] + depth[i + 1]) / 2; };
-  for (int i = first; i <= last; ++i) {
+  for (int i = layer.first_node; i < layer.end_node; ++i) {
     // The last node may lie a little beyond the bore, where the layer has no entries in this step.
-    const double at = i == first ? 0 : std::min(layer.inserted_m - rod.node_from_tip_m[i], reach);
+    const double at = i == own.first ? 0 : std::min(layer.inserted_m - rod.node_from_tip_m[i], reach);
     while (e + 1 < elements && depth[e + 1] < at) ++e;
     layer.to_nodes.before[i] = e;
     layer.to_nodes.part.at(0)[i] = std::clamp((at - depth[e]) / (depth[e + 1] - depth[e]), 0.0, 1.0);
-    if (i == last) break;
+  }
+  for (int i = layer.first_element; i < layer.end_element; ++i) {
     const double centre = middle_of_own(rod, own, i, reach);
     while (m + 2 < elements && middle(m + 1) < centre) ++m;
     layer.to_elements.before[i] = m;
-    layer.to_elements.part.at(0)[i] = std::clamp((centre - middle(m)) / (middle(m + 1) - middle(m)), 0.0, 1.0);
+    const double apart = elements > 1 ? middle(m + 1) - middle(m) : 1;
+    layer.to_elements.part.at(0)[i] = std::clamp((centre - middle(m)) / apart, 0.0, 1.0);
   }
 }
 
@@ -50,8 +51,10 @@ void find_lean(const Nest& nest, Layer& layer) {
     store3(layer.lean, i, (T{} - share) * press);
   });
   smoothen(nest, last, layer.lean);
+  const bool leaves = layer.end > 0 || (nest.branch_count > 0 && layer.inserted_m > reach);
   for_packs(0, last + 1, [&]<class T>(T, int i) {
-    const T from_base = load<T>(depth + i), end = layer.end > 0 ? least(from_base, reach - from_base) : from_base;
+    const T from_base = load<T>(depth + i) - nest.fork_m,
+            end = leaves ? least(from_base, reach - load<T>(depth + i)) : from_base;
     store3(layer.lean, i, least((1 / smooth) * end, splat<T>(1)) * load3<T>(layer.lean, i));
   });
 }
@@ -122,23 +125,23 @@ void take_strains(const Rod& rod, int from, int to, RodState& own) {
     Layer& layer = nest.layers[k];
     const Rod& rod = model.rods[layer.rod];
     RodState& own = state.rods[layer.rod];
-    const int first = own.first, exposed = own.exposed, N = rod.elements;
+    const int N = rod.elements, nodes = layer.end_node;
     if (nest.moved) locate(rod, own, nest, layer);
     find_lean(nest, layer);
-    lay_elements(nest, layer, first, std::min(exposed, N), own);
-    const int nodes = std::min(exposed, N) + 1;
-    lay_nodes(rod, nest, layer, first, nodes, own);
-    own.position.set(first, own.base.p_W);
-    for (int i = first; i < nodes && own.rod_force.size() > 0; ++i) own.rod_force.set(i, Eigen::Vector3d::Zero());
-    for (int i = first; i < nodes; ++i) {
+    lay_elements(nest, layer, layer.first_element, layer.end_element, own);
+    lay_nodes(rod, nest, layer, layer.first_node, nodes, own);
+    if (!nest.trunk) own.position.set(own.first, own.base.p_W);
+    for (int i = layer.first_node; i < nodes && own.rod_force.size() > 0; ++i)
+      own.rod_force.set(i, Eigen::Vector3d::Zero());
+    for (int i = layer.first_node; i < nodes; ++i) {
       if (own.wall_force.size() == 0) break;
       own.wall_force.set(i, Eigen::Vector3d::Zero()), own.wall_slip.set(i, {0, 0});
     }
-    for (int i = nodes; i <= N; ++i) {
+    for (int i = std::min(own.exposed, N) + 1; i <= N; ++i) {
       if (own.offset[i].squaredNorm() == 0 && own.contact_force[i].squaredNorm() == 0) continue;
       own.offset.set(i, Eigen::Vector3d::Zero()), own.contact_force.set(i, Eigen::Vector3d::Zero());
     }
-    take_strains(rod, first, first + near, own);
+    take_strains(rod, layer.first_node, layer.first_node + near, own);
     take_strains(rod, nodes - near, nodes + 1, own);
   }
 }

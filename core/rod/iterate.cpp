@@ -50,10 +50,8 @@ double largest_turn(const Rod& rod, const BlockTridiagonal& chain) {
   return turns.finite() ? turns.largest() : std::numeric_limits<double>::quiet_NaN();
 }
 
-IterateChange update_iterate(const Rod& rod, double max_turn_rad, RodScratch& scratch) {
+IterateChange measure_solution(const Rod& rod, double max_turn_rad, const BlockTridiagonal& chain) {
   const int N = rod.elements;
-  const BlockTridiagonal& chain = scratch.chain;
-
   Extent turns, forces;
   for_packs(rod.first, N, [&]<class T>(T, int j) {
     const V3<T> phi = load3<T>(chain.turn, j), n = load3<T>(chain.force, j);
@@ -69,26 +67,34 @@ IterateChange update_iterate(const Rod& rod, double max_turn_rad, RodScratch& sc
   if (!change.finite) return change;
   change.turn_rad = turns.largest();
   if (change.turn_rad > max_turn_rad) change.fraction = max_turn_rad / change.turn_rad;
-  const double fraction = change.fraction;
+  return change;
+}
 
-  for_packs(rod.first, N, [&]<class T>(T, int j) {
+void apply_solution(const Rod& rod, double fraction, RodScratch& scratch) {
+  const BlockTridiagonal& chain = scratch.chain;
+  for_packs(rod.first, rod.elements, [&]<class T>(T, int j) {
     const V3<T> phi = splat<T>(fraction) * load3<T>(chain.turn, j);
     store4(scratch.orientation, j, turned(phi, load4<T>(scratch.orientation, j)));
     store3(scratch.turn, j, load3<T>(scratch.turn, j) + phi);
     store3(scratch.force, j, blend(splat<T>(fraction), load3<T>(scratch.force, j), load3<T>(chain.force, j)));
   });
+}
 
+void place_nodes(const Rod& rod, const V3<double>& pull, RodScratch& scratch) {
+  const int N = rod.elements;
   // Force on node i: that of its distal element minus that of its proximal one.
   const auto node = [&]<class T>(T, int i, const V3<T>& force) {
-    store3(scratch.position, i, load3<T>(scratch.target, i) + load6<T>(chain.compliance, i) * force);
+    store3(scratch.position, i, load3<T>(scratch.target, i) + load6<T>(scratch.chain.compliance, i) * force);
   };
   node(double{}, rod.first, load3<double>(scratch.force, rod.first));
   for_packs(rod.first + 1, N,
             [&]<class T>(T t, int i) { node(t, i, load3<T>(scratch.force, i) - load3<T>(scratch.force, i - 1)); });
-  node(double{}, N, V3<double>{} - load3<double>(scratch.force, N - 1));
+  node(double{}, N, pull - load3<double>(scratch.force, N - 1));
+}
 
+void measure_defect(const Rod& rod, const RodScratch& scratch, IterateChange& change) {
   Extent stretch, defects;
-  for_packs(rod.first, N, [&]<class T>(T, int j) {
+  for_packs(rod.first, rod.elements, [&]<class T>(T, int j) {
     const T length = load<T>(rod.length.at(0) + j);
     const V3<T> edge = load3<T>(scratch.position, j + 1) - load3<T>(scratch.position, j);
     const V3<T> d3 = director3(load4<T>(scratch.orientation, j));
@@ -99,6 +105,14 @@ IterateChange update_iterate(const Rod& rod, double max_turn_rad, RodScratch& sc
   });
   change.stretch = stretch.largest();
   change.defect = defects.largest();
+}
+
+IterateChange update_iterate(const Rod& rod, double max_turn_rad, RodScratch& scratch) {
+  IterateChange change = measure_solution(rod, max_turn_rad, scratch.chain);
+  if (!change.finite) return change;
+  apply_solution(rod, change.fraction, scratch);
+  place_nodes(rod, {}, scratch);
+  measure_defect(rod, scratch, change);
   return change;
 }
 

@@ -23,4 +23,14 @@ double largest_turn(const Rod& rod, const BlockTridiagonal& chain);
 /// scratch.orientation, turn, force and position.
 IterateChange update_iterate(const Rod& rod, double max_turn_rad, RodScratch& scratch);
 
+// --- the same in parts, for chains that fork
+/// How much of a solution may be applied: turn_rad, finite and fraction.
+IterateChange measure_solution(const Rod& rod, double max_turn_rad, const BlockTridiagonal& chain);
+/// Applies that share of it to frames and forces.
+void apply_solution(const Rod& rod, double fraction, RodScratch& scratch);
+/// Places the nodes by the forces; `pull`: N, of branches on the last one. The first goes where it is held.
+void place_nodes(const Rod& rod, const V3<double>& pull, RodScratch& scratch);
+/// Sets stretch and defect.
+void measure_defect(const Rod& rod, const RodScratch& scratch, IterateChange& change);
+
 }  // namespace ostium::core

@@ -16,8 +16,9 @@ inline V3<double> node_force(const Field<3>& force, int first, int elements, int
 /// Position of node i in the last solution, m.
 inline V3<double> solved_position(const RodScratch& s, int i) {
   const BlockTridiagonal& chain = s.chain;
-  return load3<double>(s.target, i) +
-         load6<double>(chain.compliance, i) * node_force(chain.force, chain.first, chain.elements, i);
+  V3<double> force = node_force(chain.force, chain.first, chain.elements, i);
+  if (i == chain.elements) force = force + chain.pull;
+  return load3<double>(s.target, i) + load6<double>(chain.compliance, i) * force;
 }
 
 /// Turn of an element about its d3 in the iterate, rad.

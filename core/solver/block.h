@@ -115,6 +115,23 @@ Rolls<Rolls<T, 3>, 3> inverse(const Rolls<Rolls<T, 3>, 3>& a, T& minor) {
   return out;
 }
 
+template <class T>
+Rolls<Rolls<T, 4>, 4> inverse(const Rolls<Rolls<T, 4>, 4>& a, T& minor) {
+  const S3<T> s{a[0][0], a[0][1], a[0][2], a[1][1], a[1][2], a[2][2]}, i = inverse(s);
+  const V3<T> beside{a[0][3], a[1][3], a[2][3]}, lean = i * beside;
+  const T rest = a[3][3] - dot(beside, lean), scale = 1.0 / rest;
+  minor = least(minor, least(least_minor(s), rest));
+  const T leans[3] = {lean.x, lean.y, lean.z};
+  const T inner[3][3] = {{i.xx, i.xy, i.xz}, {i.xy, i.yy, i.yz}, {i.xz, i.yz, i.zz}};
+  Rolls<Rolls<T, 4>, 4> out;
+  for (int m = 0; m < 3; ++m) {
+    for (int l = 0; l < 3; ++l) out[m][l] = madd(scale * leans[m], leans[l], inner[m][l]);
+    out[m][3] = out[3][m] = T{} - scale * leans[m];
+  }
+  out[3][3] = scale;
+  return out;
+}
+
 /// Inverse of S = K + G A^-1 G^T; `minor` becomes negative where S is not positive definite.
 template <class T, int R>
 Stiffness<T, R> inverse(const Stiffness<T, R>& S, T& minor) {

@@ -30,7 +30,7 @@
 namespace ostium::core {
 
 /// Most rolls of a chain.
-inline constexpr int max_rolls = 3;
+inline constexpr int max_rolls = 4;
 
 struct Roll {
   explicit Roll(int elements);
@@ -43,6 +43,20 @@ struct Roll {
   Field<1> both;       ///< c_i, N m/rad, (#nodes)
   Field<1> torque;     ///< N m, (#elements)
   Field<1> turn;       ///< the solution psi_j, rad, (#elements)
+};
+
+/// What the branches of a fork add to the row of the element that they leave (fork.h), in the notation above:
+/// [K G; G^T -A], torque and gap.
+struct TipRow {
+  S3<double> K{};
+  V3<double> with_roll[max_rolls]{};        ///< K's entries between the turn and each roll, and
+  double rolls[max_rolls][max_rolls] = {};  ///< between rolls
+  M3<double> G{};
+  V3<double> roll_G[max_rolls]{};
+  S3<double> A{};
+  V3<double> torque{};
+  double roll_torque[max_rolls] = {};
+  V3<double> gap{};
 };
 
 struct BlockTridiagonal {
@@ -60,9 +74,12 @@ struct BlockTridiagonal {
   Field<3> gap;              ///< m, (#elements)
   std::vector<Roll> rolls;   ///< at most max_rolls; the first `roll_count` are in use
   int roll_count = 0;
+  bool forks = false;  ///< branches hang on the tip; then
+  TipRow branches;     ///< is what they add
   // --- the solution
   Field<3> turn;         ///< phi_j, rad, (#elements)
   Field<3> force;        ///< n_j, N, (#elements)
+  V3<double> pull{};     ///< N, of the branches on the tip; zero without
   int meets_at = 0;      ///< element at which the eliminations from both ends met
   bool in_part = false;  ///< only a stretch of the solution is that of the last solve (solve_within)
   bool definite = true;  ///< every motion within the constraints costs energy; else the solution is a saddle point

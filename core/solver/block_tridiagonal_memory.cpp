@@ -19,7 +19,8 @@ void TridiagonalFactors::resize(int elements, int rolls) {
     rolls == 0   ? make_room(blocks_->of<T, 0>())
     : rolls == 1 ? make_room(blocks_->of<T, 1>())
     : rolls == 2 ? make_room(blocks_->of<T, 2>())
-                 : make_room(blocks_->of<T, 3>());
+    : rolls == 3 ? make_room(blocks_->of<T, 3>())
+                 : make_room(blocks_->of<T, 4>());
   };
   by_rolls(Pair{}), by_rolls(Lanes{});
 }

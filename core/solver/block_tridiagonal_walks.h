@@ -104,6 +104,8 @@ class Walks {
   int steps() const { return steps_; }
   T direction() const { return direction_; }
   const Walk& lane(int l) const { return lanes_[l]; }
+  /// Whether the first chain has branches that join the elimination from its tip.
+  bool forks() const { return lanes_[1].chain->forks && lanes_[1].blocks > 0; }
 
   /// Sets the lanes' positions at step t.
   void move_to(int t) {

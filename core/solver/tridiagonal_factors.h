@@ -16,7 +16,7 @@ struct TridiagonalFactors::Blocks {
     std::vector<EliminationHalt<T, R>> halts;
   };
   template <class T>
-  using ByRolls = std::tuple<Of<T, 0>, Of<T, 1>, Of<T, 2>, Of<T, 3>>;
+  using ByRolls = std::tuple<Of<T, 0>, Of<T, 1>, Of<T, 2>, Of<T, 3>, Of<T, 4>>;
   std::tuple<ByRolls<Pair>, ByRolls<Lanes>> by_chains;
 
   template <class T, int R>

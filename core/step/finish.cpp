@@ -1,5 +1,7 @@
 #include "core/step/finish.h"
 
+#include <algorithm>
+
 #include "core/contact/contact.h"
 #include "core/contact/rod_contact.h"
 #include "core/nesting/nest.h"
@@ -31,8 +33,9 @@ void report_forces(const Model& model, const Strand& strand, RodReport& report) 
               -s.chain.joint_moment[first], report);
 }
 
-/// Writes the iterate into the strand's state.
-void finish(const State& state, const Scratch& scratch, const Strand& strand, bool halved, StepReport& report) {
+/// Writes the iterate into the strand's state. `solved`: it is close enough to a solution.
+void finish(const State& state, const Scratch& scratch, const Strand& strand, bool solved, bool halved,
+            StepReport& report) {
   RodScratch& s = *strand.s;
   const Rod& rod = s.inside;
   RodState& own = *strand.own;
@@ -44,7 +47,11 @@ void finish(const State& state, const Scratch& scratch, const Strand& strand, bo
   const double angle = strand.nest ? largest_layer_angle(*strand.nest) : largest_joint_angle(rod, s);
   if (angle > tolerances::overturned_joint_rad) trouble |= joint_overturned;
 
-  const bool solved = usable(s);
+  if (strand.nest && strand.nest->trunk) {
+    const RodScratch& trunk = strand.nest->trunk->s;
+    own.base.p_W = trunk.position[trunk.inside.elements];
+    turn_root(*strand.nest);
+  }
   if (!solved) string_iterate(rod, own, s);
 
   // Strains and moments of the committed frames, not of those that were linearised about.
@@ -64,15 +71,20 @@ void finish(const State& state, const Scratch& scratch, const Strand& strand, bo
   }
 }
 
-/// Returns a nest's state to its rods.
-void unnest(const Model& model, const Strand& strand, State& state, Scratch& scratch, StepReport& report) {
-  Nest& nest = *strand.nest;
-  find_centreline(nest);
-  find_layer_forces(model, nest);
-  take_apart(nest, state);
-  spread(model, nest, state);
-  commit_slides(model, nest, state);
-  const RodReport whole = report.rods[strand.lead];
+/// Returns the state of a nest and its branches to their rods.
+void unnest(const Model& model, Tree tree, State& state, Scratch& scratch, StepReport& report) {
+  // A trunk's layers bear what they bear in the branches.
+  for (std::size_t b = tree.size(); b-- > 0;) {
+    find_centreline(*tree[b].nest);
+    find_layer_forces(model, *tree[b].nest);
+  }
+  for (const Strand& strand : tree) take_apart(*strand.nest, state);
+  for (const Strand& strand : tree) {
+    spread(model, *strand.nest, state);
+    commit_slides(model, *strand.nest, state);
+  }
+  const Nest& nest = *tree.front().nest;
+  const RodReport whole = report.rods[tree.front().lead];
   for (int k = 0; k < nest.layer_count; ++k) {
     const int r = nest.layers[k].rod;
     RodReport& own = report.rods[r];
@@ -92,15 +104,17 @@ void finish_all(const Model& model, bool halved, State& state, Scratch& scratch,
   report.touches.clear();
   report.deepest_m = 0;
   commit_rod_contacts(scratch, report.rod_touches);
-  for (const Strand& strand : scratch.strands) {
-    finish(state, scratch, strand, halved, report);
+  for_trees(scratch, [&](Tree tree) {
+    const bool solved = std::all_of(tree.begin(), tree.end(), [](const Strand& strand) { return usable(*strand.s); });
+    for (const Strand& strand : tree) finish(state, scratch, strand, solved, halved, report);
+    const Strand& strand = tree.front();
     if (strand.nest) {
-      unnest(model, strand, state, scratch, report);
+      unnest(model, tree, state, scratch, report);
     } else {
       follow_free_ends(strand.s->inside, strand.s->inputs, *strand.own);
       report_forces(model, strand, report.rods[strand.lead]);
     }
-  }
+  });
 }
 
 }  // namespace ostium::core

@@ -18,6 +18,7 @@
 #include "core/rod/stretch.h"
 #include "core/step/finish.h"
 #include "core/step/phases.h"
+#include "core/step/solve.h"
 
 namespace ostium::core {
 
@@ -94,7 +95,7 @@ void meet_walls(const Model& model, const Inputs& inputs, Piece piece, Scratch& 
   }
 }
 
-/// Sets each node's position without internal force, and its compliance.
+/// Sets each node's position without internal force, and its compliance. A trunk's before its branches'.
 void constrain(const Model& model, Scratch& scratch, const Strand& strand) {
   RodScratch& s = *strand.s;
   const auto move = [&](int rod, int begin, int end) {
@@ -112,6 +113,7 @@ void constrain(const Model& model, Scratch& scratch, const Strand& strand) {
   tie_to_rods(strand, scratch);
   tie_to_walls(strand);
   hold_ends(s.inside, s.inputs, *strand.own, s);
+  if (is_branch(strand)) hold_root(*strand.nest);
 }
 
 void predict(const Model& model, const State& state, Scratch& scratch, const Strand& strand, TimeScheme scheme) {
@@ -135,6 +137,7 @@ void predict(const Model& model, const State& state, Scratch& scratch, const Str
 void linearise(const State& state, const Strand& strand, PhaseClock* clock) {
   const InPhase phase(clock, linearising);
   RodScratch& s = *strand.s;
+  if (is_branch(strand)) turn_root(*strand.nest);
   if (strand.nest)
     linearise_layers(state, *strand.nest);
   else
@@ -147,86 +150,7 @@ void linearise(const State& state, const Strand& strand, PhaseClock* clock) {
     turn_in_bores(*strand.nest);
   }
   turn_at_walls(strand);
-}
-
-/// Whether the solution is close enough to be taken in full and to decide contact.
-bool is_near(const RodScratch& s) {
-  return s.chain.definite && largest_turn(s.inside, s.chain) <= tolerances::max_turn_rad;
-}
-
-/// Solves a whole chain, and another one beside it if there is one.
-void solve_first(BlockTridiagonal& chain, BlockTridiagonal* second, Scratch& scratch) {
-  const InPhase phase(scratch.clock, first_solving);
-  scratch.counts.solves += second ? 2 : 1;
-  scratch.counts.eliminated += chain.elements - chain.first + (second ? second->elements - second->first : 0);
-  solve(chain, second, scratch.factors);
-}
-
-/// Solves a chain again whose ties were changed: the window in which they settle, or all but the elements at either end
-/// that stayed the same.
-void solve_later(BlockTridiagonal& chain, ContactScratch& c, Scratch& scratch) {
-  const InPhase phase(scratch.clock, later_solving);
-  ++scratch.counts.solves;
-  const int from = std::max(chain.first, c.window_first - 1), to = std::min(chain.elements - 1, c.window_last);
-  if (c.window_first >= 0 && solve_within(chain, from, to, scratch.factors)) {
-    scratch.counts.eliminated += to - from + 1;
-    return;
-  }
-  c.window_first = c.window_last = -1;
-  scratch.counts.eliminated += std::max(0, chain.elements - chain.first - 2 * c.same);
-  solve_again(chain, c.same, scratch.factors);
-}
-
-/// Solves a strand in contact until its ties are those that push.
-void solve_held(const Model& model, const Strand& strand, Scratch& scratch) {
-  ContactScratch& c = *strand.contact;
-  c.changes = c.settling = 0;
-  c.window_first = c.window_last = -1;
-  BlockTridiagonal& chain = strand.s->chain;
-  solve_first(chain, nullptr, scratch);
-  const InPhase phase(scratch.clock, changing_ties);
-  while (is_near(*strand.s) && change_walls(model, strand, scratch)) solve_later(chain, c, scratch);
-  complete(chain, scratch.factors);
-}
-
-/// Solves strands that have not converged; single rods without walls two at a time, since a register holds two.
-void solve_open(const Model& model, Scratch& scratch) {
-  RodScratch* waiting = nullptr;
-  for (const Strand& strand : scratch.strands) {
-    RodScratch& s = *strand.s;
-    if (s.progress != Progress::open) continue;
-    if (strand.nest || !model.surfaces.empty()) {
-      solve_held(model, strand, scratch);
-    } else if (!waiting) {
-      waiting = &s;
-    } else {
-      solve_first(waiting->chain, &s.chain, scratch);
-      waiting = nullptr;
-    }
-  }
-  if (waiting) solve_first(waiting->chain, nullptr, scratch);
-}
-
-void take_solution(const Strand& strand, RodReport& report, StepCounts& counts) {
-  RodScratch& s = *strand.s;
-  ++report.iterations, ++counts.iterations;
-  // A rod loaded beyond buckling within a step would be solved onto the ridge between its buckling directions.
-  if (!s.chain.definite && s.geometric == GeometricStiffness::with) {
-    s.geometric = GeometricStiffness::without;
-    return;
-  }
-  const IterateChange change = update_iterate(s.inside, tolerances::max_turn_rad, s);
-  if (strand.nest && change.finite) update_layers(change.fraction, *strand.nest);
-  report.stretch = change.stretch;
-  s.last_defect = s.defect, s.defect = change.defect;
-  // The defect is quadratic in this iteration's turn, so a small defect means that moments balance, too. A large axial
-  // stretch means a rod that has not buckled yet, or cannot.
-  const bool whole = change.turn_rad <= tolerances::max_turn_rad;
-  if (!change.finite)
-    s.progress = Progress::failed;
-  else if (whole && change.defect <= tolerances::stretch_tolerance &&
-           change.stretch <= tolerances::pulled_apart_stretch)
-    s.progress = Progress::done;
+  if (is_branch(strand)) join_root(*strand.nest);
 }
 
 bool any(const Scratch& scratch, Progress progress) {
@@ -250,11 +174,16 @@ bool goes_astray(const Scratch& scratch) {
 
 /// Reopens strands that have converged with a node pressed deep between walls, if looking anew may free it.
 void free_pressed_nodes(const Model& model, Scratch& scratch) {
-  for (const Strand& strand : scratch.strands) {
-    if (strand.s->progress != Progress::done || !find_pressing_walls_anew(model, strand, scratch)) continue;
-    strand.s->progress = Progress::open;
-    constrain(model, scratch, strand);
-  }
+  for_trees(scratch, [&](Tree tree) {
+    bool any = false;
+    for (const Strand& strand : tree)
+      any |= strand.s->progress == Progress::done && find_pressing_walls_anew(model, strand, scratch);
+    if (!any) return;
+    for (const Strand& strand : tree) {
+      strand.s->progress = Progress::open;
+      constrain(model, scratch, strand);
+    }
+  });
 }
 
 /// What does not converge is done again in halves if it can be, so no time is spent on it.
@@ -266,8 +195,10 @@ void iterate(const Model& model, const State& state, Attempt attempt, Scratch& s
     for (const Strand& strand : scratch.strands)
       if (strand.s->progress == Progress::open) linearise(state, strand, scratch.clock);
     solve_open(model, scratch);
-    for (const Strand& strand : scratch.strands)
-      if (strand.s->progress == Progress::open) take_solution(strand, report.rods[strand.lead], scratch.counts);
+    for_trees(scratch, [&](Tree tree) {
+      if (tree.front().s->progress == Progress::open)
+        take_solution(tree, report.rods[tree.front().lead], scratch.counts);
+    });
     if (whole && looks < tolerances::max_looks_anew && !any(scratch, Progress::open)) {
       ++looks;
       free_pressed_nodes(model, scratch);
@@ -288,8 +219,10 @@ void settle_rod_contacts(const Model& model, const State& state, Attempt attempt
 }
 
 /// Whether its ties to walls are settled, too.
-bool settled(const Model& model, const Strand& strand, Scratch& scratch) {
-  return usable(*strand.s) && behind_walls(model, strand, scratch) <= tolerances::usable_depth_m;
+bool settled(const Model& model, Tree tree, Scratch& scratch) {
+  return std::all_of(tree.begin(), tree.end(), [&](const Strand& strand) {
+    return usable(*strand.s) && behind_walls(model, strand, scratch) <= tolerances::usable_depth_m;
+  });
 }
 
 bool all_done(const Model& model, Scratch& scratch) {
@@ -305,19 +238,22 @@ void retry_from_rest(const Model& model, const State& state, Scratch& scratch, S
   for (const double share : shares) {
     if (share < 1 && model.surfaces.empty()) return;
     bool again = false;
-    for (const Strand& strand : scratch.strands) {
-      RodScratch& s = *strand.s;
-      if (settled(model, strand, scratch)) {
-        if (s.progress == Progress::open) s.progress = Progress::given_up;
-        continue;
+    for_trees(scratch, [&](Tree tree) {
+      const bool is_settled = settled(model, tree, scratch);
+      for (const Strand& strand : tree) {
+        RodScratch& s = *strand.s;
+        if (is_settled) {
+          if (s.progress == Progress::open) s.progress = Progress::given_up;
+          continue;
+        }
+        again = true;
+        ++scratch.counts.retries;
+        report.rods[strand.lead].trouble |= motion_lost;
+        halt(s.inside, *strand.own);
+        s.step_s = share * scratch.step_s;
+        predict(model, state, scratch, strand, TimeScheme::from_rest);
       }
-      again = true;
-      ++scratch.counts.retries;
-      report.rods[strand.lead].trouble |= motion_lost;
-      halt(s.inside, *strand.own);
-      s.step_s = share * scratch.step_s;
-      predict(model, state, scratch, strand, TimeScheme::from_rest);
-    }
+    });
     if (!again) return;
     iterate(model, state, {}, scratch, report);
   }

@@ -19,7 +19,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double tube_radius_m = 2e-3, wire_radius_m = 0.18e-3, pressed_m = 2 * tolerances::usable_depth_m;
+constexpr double pressing_tube_radius_m = 2e-3, wire_radius_m = 0.18e-3, pressed_m = 2 * tolerances::usable_depth_m;
 constexpr int node = 20;
 
 /// A wire in the middle of a tube, after a step.
@@ -31,7 +31,7 @@ struct WireInTube {
 
   WireInTube() {
     std::vector<TubePoint> points;
-    for (int i = -2; i <= 8; ++i) points.push_back({Vector3d(0.01 * i, 0, 0), tube_radius_m});
+    for (int i = -2; i <= 8; ++i) points.push_back({Vector3d(0.01 * i, 0, 0), pressing_tube_radius_m});
     model.gravity_W.setZero();
     RodDescription d = steel_wire({.elements = 40, .length_m = 0.04, .gravity = false});
     d.sections[0].radius_m = wire_radius_m;
@@ -71,7 +71,8 @@ TEST(PressingWalls, PlanesOfNoWallAreDropped) {
 
 TEST(PressingWalls, ThoseOfAWallStay) {
   WireInTube wire;
-  const double side_m = tube_radius_m * std::cos(units::pi / 48);  // from the axis to the middle of a flat side
+  const double side_m =
+      pressing_tube_radius_m * std::cos(units::pi / 48);  // from the axis to the middle of a flat side
   const Vector3d out(0, std::cos(units::pi / 48), std::sin(units::pi / 48));
   const Vector3d pressed = Vector3d(0.02, 0, 0) + (side_m - wire_radius_m + pressed_m) * out;
   for (Field<3>* p : {&wire.strand().s->position, &wire.strand().own->position}) p->set(node, pressed);
