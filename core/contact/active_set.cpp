@@ -212,18 +212,22 @@ bool flip_ties(Tree tree, Scratch& scratch) {
   else if (slow)
     descend(tree);
   ++c.changes, ++c.settling, ++scratch.counts.changes;
-  bool any = false;
-  for (const Strand& strand : tree) {
-    const auto [first, last] = flip_ties(strand, slow, scratch);
-    if (first > last) continue;
+  const Strand& strand = tree.front();
+  auto [first, last] = flip_ties(strand, slow, scratch);
+  bool any = first <= last;
+  for (const Strand& branch : tree.subspan(1)) {
+    const NodeRange affected = flip_ties(branch, slow, scratch);
+    if (affected.first > affected.last) continue;
     any = true;
-    if (tree.size() > 1) continue;
-    // A node affects the elements on both sides of it.
-    const BlockTridiagonal& chain = strand.s->chain;
-    c.same = std::max(0, std::min(first - 1 - chain.first, chain.elements - 1 - last));
-    enter_window(first, last, strand, c);
+    last = last_free(*strand.s), first = std::min(first, last);  // where it begins is all that the trunk feels of it
   }
-  return any;
+  if (!any) return false;
+  // A node affects the elements on both sides of it.
+  const BlockTridiagonal& chain = strand.s->chain;
+  c.same = std::max(0, std::min(first - 1 - chain.first, chain.elements - 1 - last));
+  enter_window(first, last, strand, c);
+  if (tree.size() > 1 && c.window_first >= 0) c.window_last = last_free(*strand.s);
+  return true;
 }
 
 }  // namespace

@@ -126,8 +126,8 @@ void follow(const ForkBranch& branch, const Condensed& condensed, const Column& 
 
 }  // namespace
 
-void solve_fork(BlockTridiagonal& trunk, TridiagonalFactors& factors, std::span<ForkBranch* const> branches,
-                double geometric) {
+bool solve_fork(BlockTridiagonal& trunk, TridiagonalFactors& factors, std::span<ForkBranch* const> branches,
+                double geometric, int from) {
   assert(branches.size() <= max_branches);
   const int last = trunk.elements - 1, rolls = trunk.roll_count, x = 3 + rolls;
   Condensed condensed[max_branches];
@@ -164,7 +164,8 @@ void solve_fork(BlockTridiagonal& trunk, TridiagonalFactors& factors, std::span<
     for (int l = 0; l < rolls; ++l) tip.rolls[m][l] = (K(3 + m, 3 + l) + K(3 + l, 3 + m)) / 2;
   }
   trunk.forks = true;
-  solve(trunk, nullptr, factors);
+  const bool within = from >= 0 && solve_within(trunk, from, last, factors);
+  if (!within) solve(trunk, nullptr, factors);
 
   Column turned(x);
   turned.head<3>() = to_eigen(load3<double>(trunk.turn, last));
@@ -181,6 +182,7 @@ void solve_fork(BlockTridiagonal& trunk, TridiagonalFactors& factors, std::span<
     trunk.definite = trunk.definite && condensed[b].minor > 0;
   }
   for (const ForkBranch* branch : branches) branch->chain->definite = trunk.definite;
+  return within;
 }
 
 }  // namespace ostium::core

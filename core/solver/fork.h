@@ -42,8 +42,10 @@ struct ForkBranch {
 };
 
 /// Solves a trunk and its branches; each has factors of its own. `geometric`: 0.5, or 0 where the couplings leave out
-/// what moments add. All chains are `definite` or none is. Does not allocate.
-void solve_fork(BlockTridiagonal& trunk, TridiagonalFactors& factors, std::span<ForkBranch* const> branches,
-                double geometric);
+/// what moments add. All chains are `definite` or none is. `from`: as in solve_within, to the trunk's tip, where only
+/// these elements of the trunk have changed since the last call; -1: all may have. False: as many were solved as all.
+/// Does not allocate.
+bool solve_fork(BlockTridiagonal& trunk, TridiagonalFactors& factors, std::span<ForkBranch* const> branches,
+                double geometric, int from = -1);
 
 }  // namespace ostium::core

@@ -30,19 +30,23 @@ void solve_first(BlockTridiagonal& chain, BlockTridiagonal* second, Scratch& scr
   solve(chain, second, scratch.factors);
 }
 
-/// Solves a chain that forks.
-void solve_whole(Tree tree, Scratch& scratch) {
-  const RodScratch& trunk = *tree.front().s;
+/// Solves a chain that forks; of the trunk no more than the window in which its ties settle.
+void solve_forked(Tree tree, Scratch& scratch) {
+  RodScratch& trunk = *tree.front().s;
+  ContactScratch& c = *tree.front().contact;
   ForkBranch* branches[max_branches];
   for (std::size_t b = 1; b < tree.size(); ++b) {
     RodScratch& s = *tree[b].s;
     move_target(0, load3<double>(trunk.target, trunk.inside.elements) - load3<double>(s.target, 0), s);
     branches[b - 1] = &tree[b].nest->fork;
   }
+  const int from = c.window_first < 0 ? -1 : std::max(0, c.window_first - 1);
+  const bool within = solve_fork(trunk.chain, scratch.factors, std::span(branches, tree.size() - 1),
+                                 trunk.geometric == GeometricStiffness::with ? 0.5 : 0, from);
+  if (!within) c.window_first = c.window_last = -1;
   ++scratch.counts.solves;
-  for (const Strand& strand : tree) scratch.counts.eliminated += strand.s->inside.elements;
-  solve_fork(tree.front().s->chain, scratch.factors, std::span(branches, tree.size() - 1),
-             trunk.geometric == GeometricStiffness::with ? 0.5 : 0);
+  for (const Strand& strand : tree)
+    scratch.counts.eliminated += is_branch(strand) || !within ? strand.s->inside.elements : trunk.chain.elements - from;
 }
 
 /// Solves a chain again whose ties were changed: the window in which they settle, or all but the elements at either end
@@ -69,7 +73,7 @@ void solve_held(const Model& model, Tree tree, Scratch& scratch) {
   const bool forks = tree.size() > 1;
   if (forks) {
     const InPhase phase(scratch.clock, first_solving);
-    solve_whole(tree, scratch);
+    solve_forked(tree, scratch);
   } else {
     solve_first(chain, nullptr, scratch);
   }
@@ -80,7 +84,7 @@ void solve_held(const Model& model, Tree tree, Scratch& scratch) {
       continue;
     }
     const InPhase later(scratch.clock, later_solving);
-    solve_whole(tree, scratch);
+    solve_forked(tree, scratch);
   }
   complete(chain, scratch.factors);
 }

@@ -137,5 +137,33 @@ TEST(Fork, SolvesWhatADenseSolverSolves) {
     }
 }
 
+// Where the trunk's far part has not changed, it is not eliminated again.
+TEST(Fork, SolvesTheTrunksEndAlone) {
+  RandomFork fork(3, {{0, 1}, {2}}, 3);
+  BlockTridiagonal& trunk = fork.trunk.chain;
+  TridiagonalFactors factors;
+  factors.resize(trunk.elements, trunk.roll_count);
+  ForkBranch* branches[] = {&fork.branches[0], &fork.branches[1]};
+  solve_fork(trunk, factors, branches, 0.5);
+  std::mt19937 random(1);
+  std::normal_distribution<> normal;
+  for (int round = 0; round < 4; ++round) {
+    // What a tie to a wall changes: a gap of a branch, the trunk's last gap and its last node's compliance.
+    for (int c = 0; c < 3; ++c) {
+      fork.chains[0]->chain.gap.at(c)[2] += normal(random);
+      trunk.gap.at(c)[trunk.elements - 1] += normal(random);
+    }
+    store6(trunk.compliance, trunk.elements, 0.9 * load6<double>(trunk.compliance, trunk.elements));
+    ASSERT_TRUE(solve_fork(trunk, factors, branches, 0.5, trunk.elements - 4));
+    complete(trunk, factors);
+    const VectorXd again = fork.solution();
+    TridiagonalFactors others;
+    others.resize(trunk.elements, trunk.roll_count);
+    solve_fork(trunk, others, branches, 0.5);
+    const VectorXd whole = fork.solution();
+    EXPECT_LT((again - whole).norm(), 1e-9 * whole.norm()) << round;
+  }
+}
+
 }  // namespace
 }  // namespace ostium::core

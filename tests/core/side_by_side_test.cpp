@@ -4,11 +4,14 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <functional>
+#include <random>
 #include <utility>
 
 #include "core/base/units.h"
+#include "core/contact/penetration_oracle.h"
 #include "core/rod/initial_state.h"
 #include "core/samples/steel_wire.h"
+#include "core/samples/tube.h"
 #include "core/step/step.h"
 
 namespace ostium::core {
@@ -212,6 +215,90 @@ TEST(SideBySide, AWireThatComesAndGoesMovesNothing) {
   EXPECT_LT(jumped, 0.02);
   EXPECT_GT(forked, 1000);
   EXPECT_LT(forked, 3000);
+}
+
+/// A bent tube of 3 mm radius, from 50 mm before the introducer; the rods begin on its axis.
+SurfaceDescription bent_tube() {
+  std::vector<TubePoint> points = bend(60e-3, units::pi / 2, 0.2, 0.2, 3e-3, 4e-3);
+  for (TubePoint& point : points) point.p_W.x() -= 0.05;
+  return tube(points, 32);
+}
+
+Model in_bend(Model model, const SurfaceDescription& wall, double friction) {
+  Surface surface = make_surface(wall);
+  surface.friction = friction;
+  model.surfaces = {std::make_shared<Surface>(std::move(surface))};
+  return model;
+}
+
+// Walls act on a branch as on the chain itself.
+TEST(SideBySide, AForkWithOneBranchMeetsWallsAsTheChainItself) {
+  Model one;
+  one.rods = {make_rod(guide()), make_rod(wire(25))};
+  one.nestings = coaxial({0, 1});
+  const SurfaceDescription wall = bent_tube();
+  one = in_bend(one, wall, 0.05);
+  Model cut = one;
+  cut.fork_from = 1;
+  Insertion whole(one, {0.12, 0.14}), forked(cut, {0.12, 0.14});
+  whole.drive = forked.drive = [](int at, Inputs& inputs) {
+    inputs.rods[0].feed_m_s = at < 1000 ? 0.05 : 0;
+    inputs.rods[1].feed_m_s = at < 1500 ? 0.12 : 0;
+  };
+  Felt felt;
+  double touched_N = 0, late = 0;
+  for (int i = 0; i < 2500; ++i) {
+    whole.steps(1), forked.steps(1);
+    for (std::size_t r = 0; r < 2; ++r) {
+      if (i < 2000) continue;  // on the way, a beat of contact earlier or later throws them apart
+      felt.take(whole.report.rods[r], forked.report.rods[r]);
+      late = std::max(late, apart_m(whole, forked, r, r));
+    }
+    for (const Touch& touch : forked.report.touches) touched_N = std::max(touched_N, touch.normal_W_N.norm());
+  }
+  EXPECT_LT(late, 0.1e-3);
+  EXPECT_GT(touched_N, 0.01);
+  EXPECT_LT(felt.push_apart_N, 0.05 * felt.push_N);
+}
+
+// Three instruments, each in a hand of its own that does not care: nothing leaves, nothing breaks, and the steps are
+// the same to the bit.
+TEST(SideBySide, RandomHandsStayInside) {
+  const SurfaceDescription wall = bent_tube();
+  const Model model = in_bend(guide_and_two_wires({30, 0, 0}, {-10, 40, 0}), wall, 0.05);
+  Insertion run(model, {0.1, 0.12, 0.14}), twin(model, {0.1, 0.12, 0.14});
+  std::mt19937 random(7);
+  std::uniform_real_distribution<> even(-1, 1);
+  std::vector<double> feed(3), turn(3);
+  const auto drive = [&](int, Inputs& inputs) {
+    for (std::size_t r = 0; r < 3; ++r) {
+      inputs.rods[r].feed_m_s = feed[r];
+      inputs.rods[r].base.turn_rate_W_rad_s = Vector3d(turn[r], 0, 0);
+    }
+  };
+  run.drive = twin.drive = drive;
+  PenetrationOracle oracle(wall);
+  oracle.set_frame(0);
+  double deepest_m = 0;
+  int forked = 0, halved = 0;
+  for (int i = 0; i < 6000; ++i) {
+    if (i % 250 == 0)
+      for (std::size_t r = 0; r < 3; ++r) {
+        const double inserted_m = run.state.rods[r].inserted_m, most_m = r == 0 ? 0.2 : 0.36;
+        feed[r] = inserted_m < 0.1 ? 0.1 : inserted_m > most_m ? -0.1 : 0.15 * even(random);
+        turn[r] = 12 * even(random);
+      }
+    run.steps(1), twin.steps(1);
+    ASSERT_EQ(first_difference(run.state, twin.state), "") << i;
+    deepest_m = std::max(deepest_m, run.report.deepest_m);
+    forked += run.scratch.strands.size() > 1, halved += run.report.counts.halvings;
+    if (i % 50 > 0) continue;
+    for (std::size_t r = 0; r < 3; ++r)
+      for (int n = run.state.rods[r].exposed + 1; n < model.rods[r].nodes(); ++n)
+        ASSERT_GT(oracle.winding(run.state.rods[r].position[n]), 0.5) << "rod " << r << ", node " << n << ", " << i;
+  }
+  EXPECT_LT(deepest_m, 50e-6);
+  EXPECT_GT(forked, 1000);
 }
 
 }  // namespace
