@@ -37,7 +37,7 @@ app::SessionModel default_session() {
   const std::vector<data::Instrument> catalogue = data::load_catalogue();
   std::vector<app::SessionTool> tools;
   for (const auto& [name, instrument] : {std::pair{"guide", "guide-jr4-6f"}, std::pair{"wire", "wire-014-workhorse"}})
-    tools.push_back({name, data::find_instrument(catalogue, instrument)});
+    tools.push_back({name, data::find_instrument(catalogue, instrument), ""});
   app::SessionOptions options;
   options.begin = "RCA";
   return app::make_session(app::vessel_of(data::find_case("rca-mid-focal"), {}), std::move(tools), options);

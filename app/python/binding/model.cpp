@@ -25,7 +25,7 @@ using NamedTools = std::vector<std::pair<std::string, std::string>>;
 std::shared_ptr<const app::FreeRunModel> model_of(const ModelRecipe& recipe) {
   std::vector<app::SessionTool> tools;
   for (const ModelRecipe::Tool& tool : recipe.tools)
-    tools.push_back({tool.name, data::read_instrument(tool.file, tool.text)});
+    tools.push_back({tool.name, data::read_instrument(tool.file, tool.text), ""});
   app::SessionOptions options = recipe.options;
   for (const ModelRecipe::DrugFile& drug : recipe.drugs) options.drugs.push_back(data::read_drug(drug.file, drug.text));
   return std::make_shared<app::FreeRunModel>(make_session(recipe.vessel->vessel, std::move(tools), options),

@@ -21,6 +21,14 @@ int balloon_tool(const CouplingModel& model, const core::State& rods) {
   return -1;
 }
 
+/// The artery's cell at the tip of the wire that the tool runs over; -1: none.
+int cell_of_its_wire(const CouplingModel& model, const core::State& rods, int tool, const CouplingScratch& x) {
+  for (const core::Nesting& n : model.rods.nestings)
+    if (n.outer == tool && is_thin_wire(model.tools[static_cast<std::size_t>(n.inner)].instrument))
+      if (const int cell = cell_at_tip(model, rods, n.inner, x); cell >= 0) return cell;
+  return -1;
+}
+
 /// Of a device whose proximal marker is by the ostium or in the aorta: by the distal one. Empty if the device lies
 /// farther in, or less than `least_m` of it is in the artery. What of it stands out of the ostium meets a wall as wide
 /// as that.
@@ -82,7 +90,7 @@ void look_at_balloon(const CouplingModel& model, const core::State& rods, const 
   if (own.inserted_m < near_m) return;
   const Vector3d p_near = point_from_tip(rod, own, near_m), p_far = point_from_tip(rod, own, far_m);
   const double between_m = near_m - far_m;
-  const int wire_cell = s.wire_cell;
+  const int wire_cell = cell_of_its_wire(model, rods, t, x);
   auto seat = seat_at_ostium(model, x.locator, p_far, between_m, held ? 0 : between_m / 2, wire_cell);
   if (!seat) seat = seat_of(x.locator, model.physiology.flow.tree, model.treatment.paths, p_near, p_far, wire_cell);
   // What the wall holds is not let go of because a beat throws its shaft aside for a moment; nor does a balloon that is

@@ -19,7 +19,6 @@ using Eigen::Vector3d;
 
 namespace {
 
-constexpr double tip_m = 3e-3;          // what of a wire is its tip
 constexpr double manifold_m3 = 0.3e-6;  // of the line ahead of the guide
 
 }  // namespace
@@ -114,20 +113,17 @@ void look(const CouplingModel& model, const core::State& rods, const vascular::T
   look_at_guide(model, rods, report, moment, root_shift, x, s);
   look_at_crimped_stent(model, rods, treatment, s);
   look_at_edge(model, rods, treatment, x, s);
-  look_at_wires(model, rods, root_shift, x, s);
+  look_at_wires(model, rods, report, root_shift, x, s);
   look_at_valve(model, rods, report, moment, root_shift, s);
 }
 
 void press_with_wire(const CouplingModel& model, const core::StepReport& report, double step_s, CouplingState& s) {
-  Vector3d now_W_N = Vector3d::Zero();
-  for (const core::Touch& touch : report.touches) {
-    const auto t = static_cast<std::size_t>(touch.rod);
-    if (s.wire_cell < 0 || !is_thin_wire(model.tools[t].instrument)) continue;
-    if (model.rods.rods[t].node_from_tip_m[static_cast<std::size_t>(touch.node)] <= tip_m)
-      now_W_N += touch.normal_W_N + touch.friction_W_N;
-  }
+  double now_N = 0;
+  for (std::size_t t = 0; t < model.tools.size() && s.wire_cell >= 0; ++t)
+    if (is_thin_wire(model.tools[t].instrument))
+      now_N = std::max(now_N, tip_force_N(model, report, static_cast<int>(t)));
   const double share = 1 - std::exp(-2 * units::pi * data::wall_force_cut_off_Hz * step_s);
-  s.wire_tip_N += share * (now_W_N.norm() - s.wire_tip_N);
+  s.wire_tip_N += share * (now_N - s.wire_tip_N);
   if (s.wire_tip_N < 1e-6) s.wire_tip_N = 0;
 }
 

@@ -16,6 +16,7 @@ namespace ostium::app {
 struct SessionTool {
   std::string name;  ///< its name in a script
   data::Instrument instrument;
+  std::string over;  ///< of several wires that go through it, the one that it runs over; empty: there is one
 };
 
 inline constexpr double undiluted_kg_m3 = 350;        ///< iodine in the syringe unless something else is said

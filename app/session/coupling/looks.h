@@ -18,8 +18,12 @@ inline bool is_thin_wire(const data::Instrument& i) {
 
 // shafts_look.cpp: how wide the widest shaft in each cell is; where wires lie.
 void look_at_shafts(const CouplingModel& model, const core::State& rods, CouplingScratch& x, CouplingState& s);
-void look_at_wires(const CouplingModel& model, const core::State& rods, const Eigen::Vector3d& root_shift,
-                   CouplingScratch& x, CouplingState& s);
+void look_at_wires(const CouplingModel& model, const core::State& rods, const core::StepReport& report,
+                   const Eigen::Vector3d& root_shift, CouplingScratch& x, CouplingState& s);
+/// Force of the walls on a tool's last 3 mm, N.
+double tip_force_N(const CouplingModel& model, const core::StepReport& report, int tool);
+/// The artery's cell at a tool's tip; -1: outside of them, or of the body.
+int cell_at_tip(const CouplingModel& model, const core::State& rods, int tool, const CouplingScratch& x);
 
 // balloon_look.cpp: where the balloon sits, what its crimped stent hangs on.
 void look_at_balloon(const CouplingModel& model, const core::State& rods, const vascular::TreatmentState& treatment,

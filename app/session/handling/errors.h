@@ -18,16 +18,16 @@ struct HandlingErrors {
   CatheterErrors catheter;
   ThickWireErrors thick_wire;
   CoronaryWireErrors coronary_wire;
+  int wire = -1;  ///< whose they are: with another one in hand they begin anew
   DeviceErrors device;
   OperationErrors operation;
 
   void look(const HandlingMap& map, const HandlingScene& x, const EventSink& say) {
     look_for(catheter, map, x, say);
     look_for(thick_wire, map, x, say);
-    if (x.thin_wire < 0)
-      coronary_wire = {};
-    else
-      look_for(coronary_wire, map, x, say);
+    if (x.thin_wire != wire) coronary_wire = {};
+    wire = x.thin_wire;
+    if (wire >= 0) look_for(coronary_wire, map, x, say);
     if (x.device < 0 || x.balloon < 0)
       device = {};
     else

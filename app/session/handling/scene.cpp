@@ -104,6 +104,21 @@ void map_arteries(const SessionModel& model, HandlingMap& map) {
   }
 }
 
+/// The artery's cell about where a sphere of the way lies; -1: in no artery.
+int cell_at(const SessionModel& model, int sphere) {
+  const VesselIndex& way = *model.vessel->way;
+  const std::string& name = way.branches()[static_cast<std::size_t>(way.branch(sphere))].name;
+  const vascular::FlowTree& tree = model.physiology.flow.tree;
+  const auto branch =
+      std::ranges::find_if(tree.branches, [&](const vascular::FlowBranch& one) { return one.name == name; });
+  if (branch == tree.branches.end()) return -1;
+  double along_m = way.from_access_m(sphere) - way.from_access_m(way.entry(name));
+  int cell = branch->first;
+  while (cell + 1 < branch->last && along_m > tree.cells[static_cast<std::size_t>(cell)].length_m)
+    along_m -= tree.cells[static_cast<std::size_t>(cell++)].length_m;
+  return cell;
+}
+
 /// Twist of the material about the rod's axis, summed over its joints.
 double twist_rad(const core::Rod& rod, const core::RodState& state) {
   double sum = 0;
@@ -168,6 +183,7 @@ void see(const SessionModel& model, const HandlingMap& map, const SessionInputs&
   x.gauge_atm = inputs.delivery.gauge_Pa / 101325;
   x.tools.resize(model.tools.size());
   x.catheter = x.thick_wire = x.thin_wire = x.device = -1;
+  x.thin_wires = 0;
   for (int t = 0; t < static_cast<int>(model.tools.size()); ++t) {
     const auto i = static_cast<std::size_t>(t);
     HandledTool& tool = x.tools[i];
@@ -184,8 +200,13 @@ void see(const SessionModel& model, const HandlingMap& map, const SessionInputs&
     const data::Instrument& instrument = model.tools[i].instrument;
     if (is_catheter(instrument) && x.catheter < 0) x.catheter = t;
     if (model.balloon_of[i] >= 0) x.device = t;
-    if (instrument.kind == data::InstrumentKind::wire)
-      (instrument.outer_diameter_m < thick_m ? x.thin_wire : x.thick_wire) = t;
+    if (instrument.kind != data::InstrumentKind::wire) continue;
+    if (instrument.outer_diameter_m >= thick_m) {
+      x.thick_wire = t;
+      continue;
+    }
+    ++x.thin_wires;
+    if (x.thin_wire < 0 || tool.feed_m_s != 0 || tool.turn_rad_s != 0) x.thin_wire = t;  // of several, the one in hand
   }
   const CouplingState& b = state.coupling;
   x.filled = b.balloon >= 0 &&
@@ -194,7 +215,9 @@ void see(const SessionModel& model, const HandlingMap& map, const SessionInputs&
   x.beyond_stent_m = x.balloon < 0 ? 0 : beyond_stent_m(model, state);
   x.ST_mV = x.balloon < 0 ? 0 : ST_shift_mV(model.physiology.ischaemia, state.blood.ischaemia);
   x.guide_trace = b.guide >= 0 ? state.blood.line.trace : vascular::Trace::absent;
-  x.wire_cell = x.thin_wire < 0 || !model.has_patient() ? -1 : b.wire_cell;
+  x.wire_cell = x.thin_wire < 0 || !model.has_patient() ? -1
+                : x.thin_wires > 1 ? cell_at(model, x.tools[static_cast<std::size_t>(x.thin_wire)].sphere)
+                                   : b.wire_cell;
   x.catheter_cell =
       x.catheter >= 0 && model.has_patient() && b.tip.where == vascular::TipPlace::coronary ? b.tip.cell : -1;
   x.thin_tip_is_seen = x.beam && x.thin_wire >= 0 && in_field(inputs.c_arm, tip(model, state, x.thin_wire));

@@ -70,13 +70,14 @@ class BlindWire {
   Episode episode_;
 };
 
+/// A wire beside one that lies elsewhere protects a branch: it is where it should be.
 class SideBranchPushed {
  public:
   void look(const HandlingMap& map, const HandlingScene& x, const EventSink& say) {
     const double fed_m = x.tool(x.thin_wire).fed_m;
     const bool pushed = fed_m - fed_m_ > 0;
     fed_m_ = fed_m;
-    if (x.wire_cell < 0) return;
+    if (x.wire_cell < 0 || x.thin_wires > 1) return;
     const double unplanned_m = map.unplanned_m[static_cast<std::size_t>(x.wire_cell)];
     if (episode_.begins(pushed && unplanned_m > most_m, x.time_s))
       say(data::EventCode::side_branch_pushed, x.thin_wire, 1e3 * unplanned_m);

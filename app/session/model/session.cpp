@@ -10,6 +10,7 @@
 
 #include "app/session/coupling/artery_loads.h"
 #include "app/session/coupling/device_constraints.h"
+#include "app/session/model/tool_nesting.h"
 #include "core/base/units.h"
 #include "core/rod/initial_state.h"
 #include "core/rod/introducer.h"
@@ -22,8 +23,7 @@ using Eigen::Vector3d;
 
 namespace {
 
-constexpr double wire_friction = 0.05;  // wire in a catheter: PTFE on steel, an estimate
-constexpr double tip_length_m = 0.01;   // length over which the tip force is summed
+constexpr double tip_length_m = 0.01;  // length over which the tip force is summed
 
 core::Rod rod_of(const data::Instrument& instrument) {
   core::RodDescription d = rod_description(instrument, element_lengths(instrument));
@@ -31,40 +31,16 @@ core::Rod rod_of(const data::Instrument& instrument) {
   return make_rod(d);
 }
 
-bool has_lumen(const data::Instrument& instrument) { return instrument.inner_diameter_m > 0; }
-
-/// All pairs of which one fits through the other's lumen.
-std::vector<core::Nesting> nestings_of(const std::vector<SessionTool>& tools) {
-  std::vector<core::Nesting> nestings;
-  for (int inner = 1; inner < static_cast<int>(tools.size()); ++inner)
-    for (int outer = 0; outer < inner; ++outer) {
-      const data::Instrument &a = tools[outer].instrument, &b = tools[inner].instrument;
-      if (!has_lumen(a) || !fits_inside(b, a)) continue;
-      core::Nesting nesting{.outer = outer, .inner = inner, .friction = wire_friction};
-      if (a.wire_lumen && a.wire_lumen->rapid_exchange) nesting.lumen_m = a.wire_lumen->length_m;
-      nestings.push_back(nesting);
-    }
-  return nestings;
-}
-
 std::shared_ptr<const core::Surface> with_friction(core::Surface surface, double friction) {
   surface.friction = friction;
   return std::make_shared<core::Surface>(std::move(surface));
-}
-
-void require_order(const std::vector<SessionTool>& tools) {
-  for (std::size_t i = 0; i < tools.size(); ++i)
-    for (std::size_t j = i + 1; j < tools.size(); ++j)
-      if (has_lumen(tools[j].instrument) && fits_inside(tools[i].instrument, tools[j].instrument))
-        throw data::LoadError(fmt::format("{} ({}) goes inside {} ({}): list the outer tool first", tools[i].name,
-                                          tools[i].instrument.name, tools[j].name, tools[j].instrument.name));
 }
 
 }  // namespace
 
 SessionModel make_session(std::shared_ptr<const Vessel> vessel, std::vector<SessionTool> tools,
                           const SessionOptions& options) {
-  require_order(tools);
+  require_nesting(tools);
   SessionModel model;
   model.vessel = std::move(vessel);
   model.tools = std::move(tools);
@@ -93,19 +69,6 @@ SessionModel make_session(std::shared_ptr<const Vessel> vessel, std::vector<Sess
     throw data::LoadError(fmt::format("these tools cannot be used together: {}", error.what()));
   }
   return model;
-}
-
-int in_the_way(const SessionModel& model, const core::State& rods, int tool) {
-  const auto nested = [&](int outer, int inner) {
-    return std::any_of(model.rods.nestings.begin(), model.rods.nestings.end(),
-                       [&](const core::Nesting& n) { return n.outer == outer && n.inner == inner; });
-  };
-  for (int other = 0; other < static_cast<int>(model.tools.size()); ++other)
-    if (other != tool &&
-        in_body(model.rods.rods[static_cast<std::size_t>(other)], rods.rods[static_cast<std::size_t>(other)]) &&
-        !nested(std::min(tool, other), std::max(tool, other)))
-      return other;
-  return -1;
 }
 
 // --- lists -----------------------------------------------------------------------------------------------------------
@@ -249,8 +212,8 @@ ToolInputs allowed(const SessionModel& model, const SessionState& state, int too
   ToolInputs out = hand;
   const auto t = static_cast<std::size_t>(tool);
   if (!in_body(model.rods.rods[t], state.rods.rods[t]))
-    if (const int other = in_the_way(model, state.rods, tool); other >= 0)
-      out = {}, report.refused = tool, report.in_its_way = other;
+    if (const Obstacle other = in_the_way(model, state.rods, tool); other.tool >= 0)
+      out = {}, report.refused = tool, report.in_its_way = other.tool;
   if (state.coupling.blocked && model.balloon_of[t] >= 0) out.feed_m_s = 0;
   return out;
 }

@@ -42,13 +42,18 @@ struct SessionOptions {
   std::vector<vascular::Drug> drugs;  ///< of the catalogue, that may be given
 };
 
-/// Tools are nested where one fits through the other's lumen. Two that do not fit (two balloons for one wire) are
-/// alternatives: only one can be in the body at a time. Throws LoadError naming tools in the wrong order, or devices
-/// for which a mesh has no arteries, or an artery that is not there.
+/// Tools are nested where one fits through the other's lumen, balloons over their own wire alone. Two that are not lie
+/// side by side in a third one's lumen where there is room (two wires in a guide); what runs over the same wire is
+/// exchanged. Throws LoadError naming tools in the wrong order, wires that a balloon does not run over, devices for
+/// which a mesh has no arteries, or an artery that is not there.
 SessionModel make_session(std::shared_ptr<const Vessel> vessel, std::vector<SessionTool> tools,
                           const SessionOptions& options = {});
-/// The first tool in the body that `tool` cannot lie beside, or -1.
-int in_the_way(const SessionModel& model, const core::State& rods, int tool);
+/// Why a tool cannot enter.
+struct Obstacle {
+  int tool = -1;       ///< in the body, that it cannot lie beside; -1: none
+  double lacks_m = 0;  ///< width that the lumen around both lacks; 0: it is not a matter of width
+};
+Obstacle in_the_way(const SessionModel& model, const core::State& rods, int tool);
 
 // --- inputs: the only way to act on a session ------------------------------------------------------------------------
 

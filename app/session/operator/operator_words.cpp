@@ -81,6 +81,11 @@ std::string reason(const ScriptPlan& plan, const SessionModel& model, const Sess
   if (outcome == Outcome::timed_out)
     return fmt::format("{}: timed out after {:g} s", where, step.timeout_s) +
            waiting({plan, model, session, report, state});
+  if (const Obstacle other = report.refused < 0 ? Obstacle{} : in_the_way(model, session.rods, report.refused);
+      other.lacks_m > 0)
+    return fmt::format("{}: the lumen lacks {:.2f} mm for {} to lie beside {}; withdraw that, or take a wider guide",
+                       where, 1e3 * other.lacks_m, model.tools[static_cast<std::size_t>(report.refused)].name,
+                       model.tools[static_cast<std::size_t>(other.tool)].name);
   if (state.in_the_way >= 0)
     return fmt::format("{}: {} is still in the body, and nothing can enter beside it; withdraw it first", where,
                        plan.script.tools[static_cast<std::size_t>(state.in_the_way)].name);

@@ -233,7 +233,8 @@ std::shared_ptr<const Vessel> make_vessel(const RunSetup& setup, std::string& wa
 SessionModel make_session(const RunSetup& setup, std::shared_ptr<const Vessel> vessel) {
   std::vector<SessionTool> tools;
   for (std::size_t t = 0; t < setup.script.tools.size(); ++t)
-    tools.push_back({setup.script.tools[t].name, data::read_instrument(setup.tool_files[t], setup.tool_texts[t])});
+    tools.push_back({setup.script.tools[t].name, data::read_instrument(setup.tool_files[t], setup.tool_texts[t]),
+                     setup.script.tools[t].over});
   std::vector<vascular::Drug> drugs;
   for (std::size_t d = 0; d < setup.drug_texts.size(); ++d)
     drugs.push_back(data::read_drug(setup.drug_files[d], setup.drug_texts[d]));

@@ -72,6 +72,7 @@ struct ScriptTool {
   std::vector<std::string> sizes;
   double of_reference = 0, of_aorta = 0;
   int lesion = 0;
+  std::string over;  ///< of several wires that go through it, the tool that it runs over; empty: there is one
 };
 
 struct ScriptLandmark {

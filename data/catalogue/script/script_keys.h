@@ -50,7 +50,8 @@ inline const JsonObjectKeys tool = {
      {"lesion", false,
       "which of the case's lesions, a whole number from 1 on; the first if it is not said; beside sizes and "
       "of_reference",
-      json_type::whole(from_to(1, 100))}}};
+      json_type::whole(from_to(1, 100))},
+     {"over", false, "of several wires that go through it, the tool that it runs over", json_type::text()}}};
 
 inline const JsonObjectKeys landmark = {
     "landmark",

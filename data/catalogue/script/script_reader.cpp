@@ -197,7 +197,8 @@ void read_otherwise(const JsonValue& value, Script& script, ScriptStep& step) {
 }
 
 ScriptTool read_tool(const JsonObject& tool) {
-  ScriptTool out{tool.text("name"), tool.text("instrument"), tool.value().line, {}, 0, 0, read_lesion(tool)};
+  ScriptTool out{tool.text("name"), tool.text("instrument"), tool.value().line, {}, 0, 0, read_lesion(tool), {}};
+  if (tool.has("over")) out.over = tool.text("over");
   if (tool.has("sizes") != (tool.has("of_reference") || tool.has("of_aorta")))
     tool.value().fail(tool.value().path() + " has sizes or what they are measured by; expected both or neither");
   if (tool.has("of_reference") && tool.has("of_aorta")) tool.refuse("of_aorta");

@@ -140,7 +140,7 @@ TEST(Lesions, ALesionThatThereIsNotIsRefused) {
 
 TEST(ToolChoice, AlternativesLieIdleOutside) {
   ScriptedRun run(setup(), vessel());
-  EXPECT_EQ(in_the_way(run.model, run.state.rods, 2), -1) << "nothing is in the body";
+  EXPECT_EQ(in_the_way(run.model, run.state.rods, 2).tool, -1) << "nothing is in the body";
   EXPECT_EQ(run.model.balloon_of, (std::vector<int>{-1, 0, 1, -1}));
   EXPECT_EQ(run.model.treatment.stent_on, (std::vector<int>{-1, 0}));
   EXPECT_NEAR(run.model.treatment.stents[0].length_m, 15e-3, 1e-12);

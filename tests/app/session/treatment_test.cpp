@@ -331,7 +331,7 @@ TEST(Treatment, AFoldedBalloonIsAsThickAsItsShaftShows) {
   vascular::TreatmentModel model;
   std::vector<SessionTool> tools;
   for (const char* name : {"balloon-15x10", "balloon-20x10", "balloon-nc-30x12", "stent-30x18"})
-    tools.push_back({name, data::load_instrument(data::data_folder() + "/instruments/" + name + ".json")});
+    tools.push_back({name, data::load_instrument(data::data_folder() + "/instruments/" + name + ".json"), ""});
   add_devices(tools, 1, model);
   ASSERT_EQ(model.balloons.size(), 4u);
   const double profile_m[] = {0.65e-3, 0.75e-3, 1.0e-3};  // printed by makers; a wider one sticks in a tight lesion

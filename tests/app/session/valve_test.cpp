@@ -24,7 +24,7 @@ struct AboveTheValve {
   int ectopics = 0, troubled = 0;
 
   explicit AboveTheValve(const char* instrument) {
-    model = make_session(vessel, {{"tool", data::find_instrument(data::load_catalogue(), instrument)}});
+    model = make_session(vessel, {{"tool", data::find_instrument(data::load_catalogue(), instrument), ""}});
     const vascular::Landmarks& marks = vessel->patient->anatomy.landmarks;
     model.entry = end_at(marks.p_annulus + 0.030 * marks.root_axis, -marks.root_axis);
     state = make_state(model, 0);
