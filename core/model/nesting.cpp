@@ -11,6 +11,11 @@ std::vector<Nesting> coaxial(const std::vector<int>& rods) {
   return out;
 }
 
+bool is_nested(const std::vector<Nesting>& nestings, int outer, int inner) {
+  return std::any_of(nestings.begin(), nestings.end(),
+                     [&](const Nesting& n) { return n.outer == outer && n.inner == inner; });
+}
+
 double tightest_clearance_m(const Rod& outer, const Rod& inner, double lumen_m) {
   double bore = 1e3, thickest = 0;
   for (const Section& s : outer.sections)

@@ -24,6 +24,9 @@ struct Nesting {
 /// Nestings of coaxial instruments, rods[0] the outermost: one for each pair.
 std::vector<Nesting> coaxial(const std::vector<int>& rods);
 
+/// Whether rod `inner` may run in rod `outer`.
+bool is_nested(const std::vector<Nesting>& nestings, int outer, int inner);
+
 /// Smallest clearance of rod `inner` in the lumen of `outer`, m; negative if it does not fit or there is no lumen.
 double tightest_clearance_m(const Rod& outer, const Rod& inner, double lumen_m);
 

@@ -68,18 +68,13 @@ void resize_layer(int elements, int own_nodes, Layer& l) {
   l.host.resize(nodes);
 }
 
-bool is_nested(const Model& model, int outer, int inner) {
-  return std::any_of(model.nestings.begin(), model.nestings.end(),
-                     [&](const Nesting& n) { return n.outer == outer && n.inner == inner; });
-}
-
 /// Whether the rod may lie beside another one in the lumen of a third, so that a chain forks.
 bool may_branch(const Model& model, int rod) {
   return std::any_of(model.nestings.begin(), model.nestings.end(), [&](const Nesting& own) {
     return own.inner == rod &&
            (model.fork_from < 2 || std::any_of(model.nestings.begin(), model.nestings.end(), [&](const Nesting& other) {
-              return other.outer == own.outer && other.inner != rod && !is_nested(model, rod, other.inner) &&
-                     !is_nested(model, other.inner, rod);
+              return other.outer == own.outer && other.inner != rod && !is_nested(model.nestings, rod, other.inner) &&
+                     !is_nested(model.nestings, other.inner, rod);
             }));
   });
 }

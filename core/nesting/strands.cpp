@@ -13,11 +13,6 @@ namespace ostium::core {
 
 namespace {
 
-bool is_nested(const Model& model, int outer, int inner) {
-  return std::any_of(model.nestings.begin(), model.nestings.end(),
-                     [&](const Nesting& n) { return n.outer == outer && n.inner == inner; });
-}
-
 long hanging_on(int o, const Nest& nest, const Scratch& scratch) {
   return std::count_if(nest.members.begin(), nest.members.end(), [&](int m) { return scratch.around[m] == o; });
 }
@@ -32,7 +27,7 @@ int forks_at(const Model& model, const Nest& nest, const Scratch& scratch) {
 /// Whether rod r can hang on rod o: it runs in all rods around o, and only one rod of a nest holds others side by side.
 bool can_hang(const Model& model, const Scratch& scratch, int r, int o) {
   for (int outer = scratch.around[o]; outer >= 0; outer = scratch.around[outer])
-    if (!is_nested(model, outer, r)) return false;
+    if (!is_nested(model.nestings, outer, r)) return false;
   const Nest& nest = scratch.nests[scratch.lead[o]];
   if (static_cast<int>(nest.members.size()) >= max_layers) return false;
   const long beside = hanging_on(o, nest, scratch);
@@ -49,7 +44,7 @@ void find_nests(const Model& model, const State& state, Scratch& scratch) {
     scratch.lead[r] = r, scratch.around[r] = -1;
     if (!in_body(model.rods[r], state.rods[r])) continue;
     for (int o = r - 1; o >= 0; --o) {
-      if (!in_body(model.rods[o], state.rods[o]) || !is_nested(model, o, r)) continue;
+      if (!in_body(model.rods[o], state.rods[o]) || !is_nested(model.nestings, o, r)) continue;
       if (can_hang(model, scratch, r, o)) scratch.lead[r] = scratch.lead[o], scratch.around[r] = o;
       break;
     }

@@ -56,6 +56,21 @@ def test_views_are_the_engines_own_memory(data):
             view[...] = 0
 
 
+def test_two_wires_in_one_guide(vessel):
+    tools = [("guide", "guide-jr4-6f"), ("balloon", "balloon-20x15", "second wire"), ("wire", "wire-014-workhorse"),
+             ("second wire", "wire-014-workhorse")]
+    data = ostium.Data(pickle.loads(pickle.dumps(ostium.Model(vessel, tools=tools))))
+    names = data.model.input_names
+    for name in ("guide", "wire", "second wire"):
+        data.inputs[names.index(f"{name}.advance_m_s")] = 0.1
+        ostium.step(data.model, data, n=300)
+        data.inputs[names.index(f"{name}.advance_m_s")] = 0
+    for name in ("wire", "second wire"):
+        assert data.signal(f"{name}.inserted_mm") == pytest.approx(30, rel=1e-6)
+    with pytest.raises(ostium.OstiumError, match="say which, as \"over\""):
+        ostium.Model(vessel, tools=[tool[:2] for tool in tools])
+
+
 def test_a_view_outlives_its_owner(model):
     data = ostium.Data(model)
     inputs, signals = data.inputs, data.signals

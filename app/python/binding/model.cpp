@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <iterator>
+#include <tuple>
+#include <variant>
 
 #include "app/python/binding/arrays.h"
 #include "app/python/binding/bindings.h"
@@ -21,11 +23,19 @@ namespace ostium::python {
 namespace {
 
 using NamedTools = std::vector<std::pair<std::string, std::string>>;
+/// (name, instrument), or (name, instrument, the wire that it goes over).
+using WantedTool = std::variant<std::pair<std::string, std::string>, std::tuple<std::string, std::string, std::string>>;
+using WantedTools = std::vector<WantedTool>;
+
+std::tuple<std::string, std::string, std::string> parts_of(const WantedTool& tool) {
+  if (const auto* pair = std::get_if<0>(&tool)) return {pair->first, pair->second, ""};
+  return std::get<1>(tool);
+}
 
 std::shared_ptr<const app::FreeRunModel> model_of(const ModelRecipe& recipe) {
   std::vector<app::SessionTool> tools;
   for (const ModelRecipe::Tool& tool : recipe.tools)
-    tools.push_back({tool.name, data::read_instrument(tool.file, tool.text), ""});
+    tools.push_back({tool.name, data::read_instrument(tool.file, tool.text), tool.over});
   app::SessionOptions options = recipe.options;
   for (const ModelRecipe::DrugFile& drug : recipe.drugs) options.drugs.push_back(data::read_drug(drug.file, drug.text));
   return std::make_shared<app::FreeRunModel>(make_session(recipe.vessel->vessel, std::move(tools), options),
@@ -39,26 +49,27 @@ double checksum(const void* first, std::size_t doubles) {
 
 double fingerprint_of(const ModelRecipe& recipe) {
   std::string all = recipe.vessel->key;
-  for (const ModelRecipe::Tool& tool : recipe.tools) all += '\0' + tool.name + '\0' + tool.text;
+  for (const ModelRecipe::Tool& tool : recipe.tools) all += '\0' + tool.name + '\0' + tool.over + '\0' + tool.text;
   for (const ModelRecipe::DrugFile& drug : recipe.drugs) all += '\0' + drug.text;
   all += fmt::format("{} {} {} {} {}", recipe.options.seed, recipe.options.breaths_1_min, recipe.options.arteries_yield,
                      recipe.options.friction.value_or(-1), recipe.options.begin);
   return static_cast<double>(core::hash_bytes(all.data(), all.size(), 0) >> 11);
 }
 
-ModelRecipe recipe_of(std::shared_ptr<VesselHandle> vessel, const NamedTools& tools, std::uint64_t seed,
+ModelRecipe recipe_of(std::shared_ptr<VesselHandle> vessel, const WantedTools& tools, std::uint64_t seed,
                       const std::optional<std::string>& begin, std::optional<double> friction, double breathing,
                       const std::string& arteries) {
   ModelRecipe recipe{.vessel = std::move(vessel), .tools = {}, .drugs = {}, .options = {}};
   if (tools.empty()) throw py::value_error("tools is empty; expected (name, instrument) for one tool at least");
-  for (const auto& [name, instrument] : tools) {
+  for (const WantedTool& tool : tools) {
+    const auto [name, instrument, over] = parts_of(tool);
     const auto same = [&, &wanted = name](const ModelRecipe::Tool& other) { return other.name == wanted; };
     if (name.empty() || name.find('.') != std::string::npos ||
         std::any_of(recipe.tools.begin(), recipe.tools.end(), same))
       throw py::value_error(
           fmt::format("a tool is called \"{}\"; expected a name of its own for each, without a dot", name));
     const std::string file = data::instrument_file(instrument);
-    recipe.tools.push_back({name, file, data::read_file(file)});
+    recipe.tools.push_back({name, file, data::read_file(file), over});
   }
   for (const std::string& file : data::drug_files()) recipe.drugs.push_back({file, data::read_file(file)});
   if (!(breathing == 0 || (breathing >= 4 && breathing <= 60)))
@@ -78,7 +89,8 @@ ModelRecipe recipe_of(std::shared_ptr<VesselHandle> vessel, const NamedTools& to
 
 py::tuple recipe_to_python(const ModelHandle& self) {
   py::list tools;
-  for (const ModelRecipe::Tool& tool : self.recipe.tools) tools.append(py::make_tuple(tool.name, tool.file, tool.text));
+  for (const ModelRecipe::Tool& tool : self.recipe.tools)
+    tools.append(py::make_tuple(tool.name, tool.file, tool.text, tool.over));
   py::list drugs;
   for (const ModelRecipe::DrugFile& drug : self.recipe.drugs) drugs.append(py::make_tuple(drug.file, drug.text));
   const app::SessionOptions& o = self.recipe.options;
@@ -91,7 +103,8 @@ std::shared_ptr<ModelHandle> from_python(const py::tuple& r) {
   ModelRecipe recipe{.vessel = r[0].cast<std::shared_ptr<VesselHandle>>(), .tools = {}, .drugs = {}, .options = {}};
   for (const py::handle tool : r[1]) {
     const auto parts = tool.cast<py::tuple>();
-    recipe.tools.push_back({parts[0].cast<std::string>(), parts[1].cast<std::string>(), parts[2].cast<std::string>()});
+    recipe.tools.push_back({parts[0].cast<std::string>(), parts[1].cast<std::string>(), parts[2].cast<std::string>(),
+                            parts[3].cast<std::string>()});
   }
   for (const py::handle drug : r[6]) {
     const auto parts = drug.cast<py::tuple>();
@@ -141,13 +154,14 @@ void bind_model(py::module_& module) {
                                                             R"(Instruments in a vessel; does not change.
 
 Model(vessel, tools, seed=0, begin=None, friction=None, breathing=0, arteries="rigid")
-  tools      [(name, instrument), ...], outermost first; an instrument is a name of `ostium instruments` or a file
+  tools      [(name, instrument), ...], outermost first; an instrument is a name of `ostium instruments` or a file;
+             of several wires, a balloon says which it goes over: (name, instrument, "wire")
   seed       of the person's physiology and of chance; 0: the mean. Also what Data begins with
   begin      an artery ("RCA"): instruments come in before its ostium, not at the access
   friction   of the wall, [0, 1]; breathing: breaths a minute, 4 to 60, or 0; arteries: rigid, or
              yield, to what presses on them
 Many threads may use one. Raises OstiumError for instruments that are not there or do not go together.)")
-          .def(py::init([](std::shared_ptr<VesselHandle> vessel, const NamedTools& tools, std::uint64_t seed,
+          .def(py::init([](std::shared_ptr<VesselHandle> vessel, const WantedTools& tools, std::uint64_t seed,
                            const std::optional<std::string>& begin, std::optional<double> friction, double breathing,
                            const std::string& arteries) {
                  const OthersRun others_run;

@@ -14,6 +14,7 @@ struct ModelRecipe {
   std::shared_ptr<const VesselHandle> vessel;
   struct Tool {
     std::string name, file, text;  ///< the instrument's file, and what it held
+    std::string over;              ///< as in SessionTool
   };
   std::vector<Tool> tools;  ///< outermost first
   struct DrugFile {

@@ -75,7 +75,7 @@ class Model:
     def __init__(
         self,
         vessel: Vessel,
-        tools: Sequence[tuple[str, str]],
+        tools: Sequence[tuple[str, str] | tuple[str, str, str]],
         seed: int = 0,
         begin: Optional[str] = None,
         friction: Optional[float] = None,

@@ -50,11 +50,6 @@ void require_order(const std::vector<SessionTool>& tools) {
                                           tools[i].instrument.name, tools[j].name, tools[j].instrument.name));
 }
 
-bool is_nested(const SessionModel& model, int outer, int inner) {
-  return std::any_of(model.rods.nestings.begin(), model.rods.nestings.end(),
-                     [&](const core::Nesting& n) { return n.outer == outer && n.inner == inner; });
-}
-
 /// Widest diameter of a rod beyond `from_tip_m`.
 double widest_m(const core::Rod& rod, double from_tip_m = 0) {
   double most = 0;
@@ -72,7 +67,7 @@ double narrowest_lumen_m(const core::Rod& rod) {
 /// Whether something runs in both: two balloons for one wire.
 bool share_a_rail(const SessionModel& model, int a, int b) {
   for (int inner = std::max(a, b) + 1; inner < static_cast<int>(model.tools.size()); ++inner)
-    if (is_nested(model, a, inner) && is_nested(model, b, inner)) return true;
+    if (is_nested(model.rods.nestings, a, inner) && is_nested(model.rods.nestings, b, inner)) return true;
   return false;
 }
 
@@ -101,15 +96,17 @@ Obstacle in_the_way(const SessionModel& model, const core::State& rods, int tool
   const auto is_in = [&](int t) { return in_body(rod(t), rods.rods[static_cast<std::size_t>(t)]); };
   int outer = -1;  // the last rod that the tool runs in
   for (int t = 0; t < tool; ++t)
-    if (is_in(t) && is_nested(model, t, tool)) outer = t;
+    if (is_in(t) && is_nested(model.rods.nestings, t, tool)) outer = t;
   // Instruments side by side: the two widest must fit, and leave the room that round things waste.
   constexpr double filled = 0.8, tip_m = 30e-3;
   const double widest = widest_m(rod(tool));
   double next = 0, area = widest * widest;
   int beside = -1;
   for (int other = 0; other < static_cast<int>(model.tools.size()); ++other) {
-    if (other == tool || !is_in(other) || is_nested(model, std::min(tool, other), std::max(tool, other))) continue;
-    if (outer < 0 || !is_nested(model, outer, other) || share_a_rail(model, tool, other)) return {other, 0};
+    if (other == tool || !is_in(other) || is_nested(model.rods.nestings, std::min(tool, other), std::max(tool, other)))
+      continue;
+    if (outer < 0 || !is_nested(model.rods.nestings, outer, other) || share_a_rail(model, tool, other))
+      return {other, 0};
     const double own = widest_m(rod(other), tip_m);  // its balloon has left the lumen
     area += own * own;
     if (own > next) next = own, beside = other;
