@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/base/units.h"
 
 namespace ostium::vascular {
 
+using Eigen::Array3d;
 using Eigen::Vector3d;
 
 namespace {
@@ -24,10 +26,10 @@ struct Joint {
 
 /// False where there is no such row.
 bool joint_at(const ArteryBedModel& m, int cell, Joint& joint) {
-  const int up = m.upstream[static_cast<std::size_t>(cell)];
-  const int second = up < 0 ? -1 : m.upstream[static_cast<std::size_t>(up)];
+  const int up = m.layout.upstream[static_cast<std::size_t>(cell)];
+  const int second = up < 0 ? -1 : m.layout.upstream[static_cast<std::size_t>(up)];
   if (second < 0) return false;
-  const double a = m.from_m[static_cast<std::size_t>(cell)], b = m.from_m[static_cast<std::size_t>(up)],
+  const double a = m.layout.from_m[static_cast<std::size_t>(cell)], b = m.layout.from_m[static_cast<std::size_t>(up)],
                width = (a + b) / 2;
   joint = {cell, up, second, 1 / (a * width), -1 / (a * width) - 1 / (b * width), 1 / (b * width), width};
   return true;
@@ -61,15 +63,15 @@ void add_tube(const ArteryBedModel& m, const BedTube& tube, const ArteryBedState
 
 /// An origin does not move: its row says so, and nobody else's speaks of it.
 void hold_origins(const ArteryBedModel& m, ArteryBedScratch& x) {
-  for (std::size_t c = 0; c < m.upstream.size(); ++c) {
-    const int up = m.upstream[c];
+  for (std::size_t c = 0; c < m.layout.upstream.size(); ++c) {
+    const int up = m.layout.upstream[c];
     if (up < 0) {
       x.diagonal[c] = 1, x.right[c].setZero();
       continue;
     }
-    if (const int second = m.upstream[static_cast<std::size_t>(up)]; second < 0)
+    if (const int second = m.layout.upstream[static_cast<std::size_t>(up)]; second < 0)
       x.to_upstream[c] = 0;
-    else if (m.upstream[static_cast<std::size_t>(second)] < 0)
+    else if (m.layout.upstream[static_cast<std::size_t>(second)] < 0)
       x.to_second[c] = 0;
   }
 }
@@ -77,61 +79,85 @@ void hold_origins(const ArteryBedModel& m, ArteryBedScratch& x) {
 /// From the ends to the origins and back. A cell meets only the two upstream of it, which are neighbours themselves:
 /// eliminating it adds no other entry.
 void solve(const ArteryBedModel& m, ArteryBedScratch& x, std::vector<Vector3d>& z) {
-  const auto upstream = [&](std::size_t c) { return static_cast<std::size_t>(m.upstream[c]); };
-  for (std::size_t c = m.upstream.size(); c-- > 0;) {
-    if (m.upstream[c] < 0) continue;
+  const auto upstream = [&](std::size_t c) { return static_cast<std::size_t>(m.layout.upstream[c]); };
+  for (std::size_t c = m.layout.upstream.size(); c-- > 0;) {
+    if (m.layout.upstream[c] < 0) continue;
     const std::size_t up = upstream(c);
     const double a = x.to_upstream[c] / x.diagonal[c];
     x.diagonal[up] -= a * x.to_upstream[c], x.right[up] -= a * x.right[c];
-    if (m.upstream[up] < 0) continue;
+    if (m.layout.upstream[up] < 0) continue;
     const std::size_t second = upstream(up);
     const double b = x.to_second[c] / x.diagonal[c];
     x.to_upstream[up] -= a * x.to_second[c];
     x.diagonal[second] -= b * x.to_second[c], x.right[second] -= b * x.right[c];
   }
-  for (std::size_t c = 0; c < m.upstream.size(); ++c) {
+  for (std::size_t c = 0; c < m.layout.upstream.size(); ++c) {
     Vector3d sum = x.right[c];
-    if (m.upstream[c] >= 0) {
+    if (m.layout.upstream[c] >= 0) {
       sum -= x.to_upstream[c] * z[upstream(c)];
-      if (m.upstream[upstream(c)] >= 0) sum -= x.to_second[c] * z[upstream(upstream(c))];
+      if (m.layout.upstream[upstream(c)] >= 0) sum -= x.to_second[c] * z[upstream(upstream(c))];
     }
     z[c] = sum / x.diagonal[c];
   }
 }
 
-/// v, or what of it is no longer than `most`.
-Vector3d at_most(const Vector3d& v, double most) {
-  const double length = v.norm();
-  return length > most ? Vector3d(most / length * v) : v;
+bool is_too_steep(const ArteryBedModel& m, const std::vector<Vector3d>& z) {
+  return std::any_of(m.layout.ties.begin(), m.layout.ties.end(), [&](const ArteryTie& tie) {
+    const Array3d apart = z[static_cast<std::size_t>(tie.a)] - z[static_cast<std::size_t>(tie.b)];
+    return (apart.abs() > m.law.steepest * tie.room_m).any();
+  });
 }
 
-/// From the origins to the ends; a cell comes after the one upstream of it.
-void limit(const ArteryBedModel& m, std::vector<Vector3d>& z) {
-  for (std::size_t c = 0; c < z.size(); ++c) {
-    z[c] = at_most(z[c], m.law.most_aside_m);
-    if (m.upstream[c] < 0) continue;
-    const Vector3d& up = z[static_cast<std::size_t>(m.upstream[c])];
-    z[c] = up + at_most(z[c] - up, m.law.steepest * m.from_m[c]);
+/// Makes z no steeper than it may be: half-way between the largest function that is not and lies below it, and the
+/// smallest above (McShane 1934). Where z is not too steep, all three are the same.
+void flatten(const ArteryBedModel& m, ArteryBedScratch& x, std::vector<Vector3d>& z) {
+  x.lower.assign(z.begin(), z.end()), x.upper = x.lower;
+  bool changes = true;
+  const auto relax = [&](const ArteryTie& tie) {
+    const auto a = static_cast<std::size_t>(tie.a), b = static_cast<std::size_t>(tie.b);
+    const double may_m = m.law.steepest * tie.room_m;
+    const auto lower = [&](Array3d& to, const Array3d& from) {
+      if (!(to > from + may_m).any()) return;
+      to = to.min(from + may_m), changes = true;
+    };
+    const auto raise = [&](Array3d& to, const Array3d& from) {
+      if (!(to < from - may_m).any()) return;
+      to = to.max(from - may_m), changes = true;
+    };
+    lower(x.lower[a], x.lower[b]), lower(x.lower[b], x.lower[a]);
+    raise(x.upper[a], x.upper[b]), raise(x.upper[b], x.upper[a]);
+  };
+  while (changes) {
+    changes = false;
+    std::for_each(m.layout.ties.begin(), m.layout.ties.end(), relax);    // to the ends
+    std::for_each(m.layout.ties.rbegin(), m.layout.ties.rend(), relax);  // and back
   }
+  for (std::size_t c = 0; c < z.size(); ++c) z[c] = (x.lower[c] + x.upper[c]) / 2;
+}
+
+void limit(const ArteryBedModel& m, ArteryBedScratch& x, std::vector<Vector3d>& z) {
+  for (std::size_t c = 0; c < z.size(); ++c) {
+    if (const double far_m = z[c].norm(); far_m > m.law.most_aside_m) z[c] *= m.law.most_aside_m / far_m;
+    const double anchored_m = m.law.steepest * m.layout.anchored_m[c];
+    z[c] = z[c].array().min(anchored_m).max(-anchored_m);
+  }
+  if (is_too_steep(m, z)) flatten(m, x, z);
 }
 
 }  // namespace
 
-ArteryBedModel make_artery_bed(const FlowTree& tree, const ArteryBedLaw& law) {
-  ArteryBedModel m{.law = law, .upstream = {}, .length_m = {}, .from_m = {}, .EI_N_m2 = {}};
+ArteryBedModel make_artery_bed(const FlowTree& tree, ArteryLayout layout, const ArteryBedLaw& law) {
+  ArteryBedModel m{.law = law, .layout = std::move(layout), .length_m = {}, .EI_N_m2 = {}};
   for (const FlowCell& cell : tree.cells) {
     const double r = cell.healthy_m;
-    m.upstream.push_back(cell.upstream);
     m.length_m.push_back(cell.length_m);
-    m.from_m.push_back(
-        cell.upstream < 0 ? 0 : (cell.length_m + tree.cells[static_cast<std::size_t>(cell.upstream)].length_m) / 2);
     m.EI_N_m2.push_back(units::pi * r * r * r * law.wall_m * law.wall_Pa);
   }
   return m;
 }
 
 void step(const ArteryBedModel& m, const ArteryBedInputs& in, double dt, ArteryBedState& s, ArteryBedScratch& x) {
-  const std::size_t n = m.upstream.size();
+  const std::size_t n = m.layout.upstream.size();
   const double lags = m.law.bed_N_m2 * m.law.yields_s / dt, holds = m.law.bed_N_m2 + lags;
   x.diagonal.resize(n), x.right.resize(n);
   x.to_upstream.assign(n, 0), x.to_second.assign(n, 0);
@@ -144,7 +170,7 @@ void step(const ArteryBedModel& m, const ArteryBedInputs& in, double dt, ArteryB
   for (const BedTube& tube : in.tubes) add_tube(m, tube, s, x);
   hold_origins(m, x);
   solve(m, x, s.aside_P);
-  limit(m, s.aside_P);
+  limit(m, x, s.aside_P);
 }
 
 Vector3d curvature_of(const Vector3d& a, const Vector3d& b, const Vector3d& c) {

@@ -6,7 +6,7 @@
 ///   k (z + T dz/dt) + (EI z'')'' = f - (m (u + z''))''
 /// where f is the force of what touches the wall, and m the moment of an inflated balloon, which would be straight,
 /// where the artery curves by u without it. Origins at the aorta stay where they are; a side branch goes with its
-/// parent and keeps its angle as a beam does.
+/// parent and keeps its angle as a beam does. Walls stay walls (artery_layout.h).
 ///
 /// k: an artery half embedded in muscle of E = 15 kPa is held by half of 4 pi G / ln(L / r), G = E / 3, over
 /// L / r = 10. EI: pi r^3 t E of a wall of t = 0.5 mm and E = 1 MPa. [estimates; both of the right order] T is no
@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "core/base/fields.h"
-#include "vascular/flow/flow_tree.h"
+#include "vascular/treatment/artery_layout.h"
 #include "vascular/treatment/pressurised_tube.h"
 
 namespace ostium::vascular {
@@ -27,17 +27,16 @@ struct ArteryBedLaw {
   double wall_m = 0.5e-3;      ///< t
   double yields_s = 0.3;       ///< T
   double most_aside_m = 3e-3;  ///< farther it does not go
-  double steepest = 0.35;      ///< dz/ds, nor does it turn by more than 20 degrees: its lumen would fold
+  double steepest = 0.35;      ///< share of the room between cells that each part of z may differ by
 };
 
 struct ArteryBedModel {
   ArteryBedLaw law;
-  std::vector<int> upstream;     ///< (#cells), of FlowCell
+  ArteryLayout layout;
   std::vector<double> length_m;  ///< (#cells)
-  std::vector<double> from_m;    ///< (#cells) distance to the middle of the cell upstream
   std::vector<double> EI_N_m2;   ///< (#cells)
 };
-ArteryBedModel make_artery_bed(const FlowTree& tree, const ArteryBedLaw& law = {});
+ArteryBedModel make_artery_bed(const FlowTree& tree, ArteryLayout layout, const ArteryBedLaw& law = {});
 
 struct ArteryBedState {
   std::vector<Eigen::Vector3d> aside_P;  ///< z (#cells), m; empty: arteries that do not give way
@@ -59,6 +58,7 @@ struct ArteryBedInputs {
 struct ArteryBedScratch {
   std::vector<double> diagonal, to_upstream, to_second;  ///< of the matrix: a cell, and the two upstream of it
   std::vector<Eigen::Vector3d> right;
+  std::vector<Eigen::Array3d> lower, upper;
 };
 
 /// One step of any length. Linear in the number of cells: they are eliminated from the ends to the origins. Does not

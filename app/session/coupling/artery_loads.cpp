@@ -18,7 +18,10 @@ void add_balloon(const CouplingModel& model, const vascular::TreatmentState& tre
   const auto centre = [&](std::size_t k) {
     return model.vessel.coronaries->map.centre(static_cast<std::size_t>(path.cells[k]), {.phase = phase});
   };
+  const std::vector<int>& upstream = model.vessel.arteries.upstream;
   for (std::size_t k = 2; k < path.cells.size(); ++k) {
+    if (upstream[path.cells[k]] != path.cells[k - 1] || upstream[path.cells[k - 1]] != path.cells[k - 2])
+      continue;  // it turns into a side branch
     const double radius_m = radius_at(balloon, treatment.balloon, path.s_m[k - 1]);
     if (radius_m < balloon.refolded_m) continue;
     const vascular::PressurisedTube tube =

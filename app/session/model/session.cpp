@@ -52,7 +52,8 @@ SessionModel make_session(std::shared_ptr<const Vessel> vessel, std::vector<Sess
     model.treatment.injury.seed = model.treatment.thrombus.seed = model.treatment.drugs.seed = options.seed;
     model.treatment.drugs.others = options.drugs;
     model.balloon_of = add_devices(model.tools, options.seed, model.treatment);
-    if (options.arteries_yield) model.bed = vascular::make_artery_bed(model.physiology.flow.tree);
+    if (options.arteries_yield)
+      model.bed = vascular::make_artery_bed(model.physiology.flow.tree, model.vessel->arteries);
   } else {
     model.balloon_of.assign(model.tools.size(), -1);
   }

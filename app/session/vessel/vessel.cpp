@@ -137,6 +137,8 @@ std::shared_ptr<const Vessel> vessel_of(const data::Case& c, std::optional<std::
   vessel->name = c.name;
   vessel->coronaries = make_coronaries(patient, c.rate_1_min);
   vessel->wall = vessel->coronaries ? untreated_wall(*vessel->coronaries) : wall_of(patient->lumen);
+  if (const Coronaries* const own = vessel->coronaries.get())
+    vessel->arteries = layout_of(own->tree(), own->map, vessel->wall);
   vessel->ventricle = add_ventricle(*patient, vessel->wall);
   vessel->wall.friction = vessel_friction;
   vessel->surface = std::make_shared<core::Surface>(make_surface(vessel->wall));

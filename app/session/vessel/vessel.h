@@ -9,6 +9,7 @@
 #include "core/wall/surface.h"
 #include "data/catalogue/case/case.h"
 #include "vascular/patient/ventricle.h"
+#include "vascular/treatment/artery_layout.h"
 
 namespace ostium::app {
 
@@ -22,6 +23,7 @@ struct Vessel {
   double rate_1_min = 70;                              ///< heart rate at the start
   std::shared_ptr<const vascular::Patient> patient;    ///< of a case
   std::unique_ptr<const Coronaries> coronaries;        ///< of a case; null for a mesh
+  vascular::ArteryLayout arteries;                     ///< of those
   vascular::Ventricle
       ventricle;  ///< behind the aortic valve, which is the wall's door; empty: instruments stop at the valve
 

@@ -28,7 +28,9 @@ struct Arteries {
   std::vector<BedTube> tubes;
 
   explicit Arteries(const std::vector<PlainBranch>& branches, const ArteryBedLaw& law = {})
-      : tree(plain_tree(branches)), model(make_artery_bed(tree, law)), load_N(tree.cells.size(), Vector3d::Zero()) {
+      : tree(plain_tree(branches)),
+        model(make_artery_bed(tree, layout_of(tree), law)),
+        load_N(tree.cells.size(), Vector3d::Zero()) {
     state.aside_P.assign(tree.cells.size(), Vector3d::Zero());
   }
   void run(double for_s, double dt_s = 8e-3) {
