@@ -5,6 +5,7 @@
 #include "data/formats/decimal.h"
 #include "data/formats/load_error.h"
 #include "data/formats/write_file.h"
+#include "vascular/geometry/mesh_files/formats.h"
 
 namespace ostium::app {
 
@@ -45,7 +46,7 @@ Eigen::Vector3d mesh_point(const std::string& text) {
 void require_ending(const std::string& file, const std::vector<std::string>& known) {
   std::string list;
   for (std::size_t i = 0; i < known.size(); ++i) {
-    if (file.ends_with(known[i])) return;
+    if (vascular::ending_of(file) == known[i]) return;
     list += (i == 0 ? "" : i + 1 < known.size() ? ", " : " and ") + known[i];
   }
   throw data::LoadError(fmt::format("{}: what is it to be? {} {} known", file, list, known.size() == 1 ? "is" : "are"));

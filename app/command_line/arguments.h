@@ -18,7 +18,7 @@ std::optional<Eigen::Vector3d> three_numbers(const std::string& text);
 /// The same for a point of a mesh, in the mesh's unit. Throws LoadError.
 Eigen::Vector3d mesh_point(const std::string& text);
 
-/// Throws LoadError unless the file name has one of these endings: {".png", ".mp4"}.
+/// Throws LoadError unless the file name has one of these endings, in upper or lower case: {".png", ".mp4"}.
 void require_ending(const std::string& file, const std::vector<std::string>& known);
 
 /// Throws WriteError if the folder does not exist and cannot be created.

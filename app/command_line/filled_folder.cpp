@@ -1,7 +1,13 @@
 #include "app/command_line/filled_folder.h"
 
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+
 #include "app/command_line/arguments.h"
 #include "app/command_line/interrupt.h"
+#include "data/formats/write_file.h"
 
 namespace ostium::app {
 
@@ -22,6 +28,7 @@ std::vector<fs::path> missing(const std::string& path) {
 PathLock lock_of(const std::string& path) {
   if (path.empty()) return {};
   make_folder(path);
+  if (access(path.c_str(), W_OK | X_OK) != 0) throw data::write_error(path, std::strerror(errno));
   return PathLock(path);
 }
 

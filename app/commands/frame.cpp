@@ -23,6 +23,7 @@
 #include "fluoro/display/overlay.h"
 #include "fluoro/phantom/chest.h"
 #include "fluoro/projection/views.h"
+#include "vascular/geometry/mesh_files/formats.h"
 
 namespace ostium::app {
 
@@ -51,8 +52,8 @@ struct Arguments {
   bool overlay = false, json = false;
   std::string out = "frame.png";  ///< .png, .dcm or .mp4
 
-  bool video() const { return out.ends_with(".mp4"); }
-  bool dicom() const { return out.ends_with(".dcm"); }
+  bool video() const { return vascular::ending_of(out) == ".mp4"; }
+  bool dicom() const { return vascular::ending_of(out) == ".dcm"; }
   fluoro::Programme programme() const { return cine ? fluoro::cine(frames_per_s) : fluoro::fluoroscopy(frames_per_s); }
 };
 

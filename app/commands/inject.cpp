@@ -18,6 +18,7 @@
 #include "data/formats/png.h"
 #include "data/formats/video.h"
 #include "fluoro/display/overlay.h"
+#include "vascular/geometry/mesh_files/formats.h"
 
 namespace ostium::app {
 
@@ -103,7 +104,7 @@ nlohmann::ordered_json balance(const data::Case& c, const vascular::ContrastStat
 }
 
 int run(const Arguments& a) {
-  const bool video = a.out.ends_with(".mp4");
+  const bool video = vascular::ending_of(a.out) == ".mp4";
   require_ending(a.out, {".png", ".mp4"});
   if (!a.view.empty()) named_view(a.view);
   fluoro::require_rate(a.frames_per_s);

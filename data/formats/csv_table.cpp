@@ -51,8 +51,7 @@ std::string listed(const std::vector<std::string>& names) {
 /// The file's text with \n at the end of every line, whichever its program writes.
 std::string text_of(const std::string& file, const std::string& expected) {
   const std::string bytes = read_file(file, "a table with the columns " + expected);
-  if (bytes.starts_with("\xFF\xFE") || bytes.starts_with("\xFE\xFF"))
-    throw LoadError(file + ": is UTF-16; save it as UTF-8");
+  require_utf8(file, bytes);
   std::string out;
   for (std::size_t i = 0; i < bytes.size(); ++i) {
     if (bytes[i] == '\0')

@@ -8,6 +8,7 @@
 
 #include "data/formats/load_error.h"
 #include "data/formats/paths.h"
+#include "vascular/geometry/mesh_files/formats.h"
 
 namespace ostium::data {
 
@@ -25,6 +26,10 @@ std::string read_file(const std::string& file, const std::string& expected, std:
   std::string text{std::istreambuf_iterator<char>(in), {}};
   if (in.bad() || !in.is_open()) throw LoadError(file + ": cannot be read; expected " + expected);
   return text;
+}
+
+void require_utf8(const std::string& file, std::string_view text) {
+  if (vascular::is_utf16(text)) throw LoadError(file + ": " + vascular::utf16_cure);
 }
 
 }  // namespace ostium::data

@@ -1,6 +1,7 @@
 #pragma once
 #include <cstddef>
 #include <string>
+#include <string_view>
 
 namespace ostium::data {
 
@@ -10,5 +11,8 @@ void require_file(const std::string& file, const std::string& expected = "a file
 
 /// What a file holds. Throws LoadError as above, or where it may not be read, or is longer than `most` bytes.
 std::string read_file(const std::string& file, const std::string& expected = "a file", std::size_t most = 1 << 28);
+
+/// Throws LoadError where a text is UTF-16, which editors and shells of Windows write unless told otherwise.
+void require_utf8(const std::string& file, std::string_view text);
 
 }  // namespace ostium::data

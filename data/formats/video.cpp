@@ -63,13 +63,34 @@ VideoWriter::VideoWriter(const std::string& file, int width, int height, double 
   posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
   posix_spawn_file_actions_adddup2(&actions, words[1], STDERR_FILENO);
   const std::string size = fmt::format("{}x{}", width, height), rate = fmt::format("{}", frames_per_s);
-  std::vector<std::string> arguments{"ffmpeg",      "-y",        "-loglevel",  "error",
-                                     "-f",          "rawvideo",  "-pix_fmt",   "gray",
-                                     "-video_size", size,        "-framerate", rate,
-                                     "-i",          "-",         "-vf",        "pad=ceil(iw/2)*2:ceil(ih/2)*2",
-                                     "-c:v",        "libx264",   "-crf",       "25",
-                                     "-preset",     "superfast", "-pix_fmt",   "yuv420p",
-                                     "-f",          "mp4",       out_.beside()};
+  // "file:", or what stands before a colon in the name (12:30.mp4) would be a protocol, and a name might be an option.
+  std::vector<std::string> arguments{"ffmpeg",
+                                     "-y",
+                                     "-loglevel",
+                                     "error",
+                                     "-f",
+                                     "rawvideo",
+                                     "-pix_fmt",
+                                     "gray",
+                                     "-video_size",
+                                     size,
+                                     "-framerate",
+                                     rate,
+                                     "-i",
+                                     "-",
+                                     "-vf",
+                                     "pad=ceil(iw/2)*2:ceil(ih/2)*2",
+                                     "-c:v",
+                                     "libx264",
+                                     "-crf",
+                                     "25",
+                                     "-preset",
+                                     "superfast",
+                                     "-pix_fmt",
+                                     "yuv420p",
+                                     "-f",
+                                     "mp4",
+                                     "file:" + out_.beside()};
   std::vector<char*> argv;
   for (std::string& argument : arguments) argv.push_back(argument.data());
   argv.push_back(nullptr);

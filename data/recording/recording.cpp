@@ -1,6 +1,7 @@
 #include "data/recording/recording.h"
 
 #include <fmt/format.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -78,6 +79,13 @@ void append(TableFile& file, const char* table, const std::vector<T>& numbers, s
   file.append(table, numbers.data(), numbers.size() / width);
 }
 
+/// Device and number of what a path leads to; {}: to nothing.
+RecordingWriter::FileId id_of(const std::string& path) {
+  struct stat file {};
+  if (stat(path.c_str(), &file) != 0) return {};
+  return {file.st_dev, file.st_ino};
+}
+
 void rename_to(const std::string& path, const std::string& from) {
   if (std::rename(from.c_str(), path.c_str()) != 0)
     throw WriteError(fmt::format("{}: cannot take the place of what was there: {}", path, std::strerror(errno)));
@@ -85,17 +93,22 @@ void rename_to(const std::string& path, const std::string& from) {
 
 }  // namespace
 
-RecordingWriter::Beside::~Beside() { std::remove(path.c_str()); }
+/// Of a writer that could not begin, and has none of its own yet, whatever it left.
+RecordingWriter::Beside::~Beside() {
+  const FileId now = id_of(path);
+  if (own[0] == FileId{} || now == own[0] || now == own[1]) std::remove(path.c_str());
+}
 
 /// Each file is complete and closed before one gets the recording's name.
 void RecordingWriter::write_both(const std::function<void(const std::string& path)>& write) {
   write(next_.path);
   write(before_.path);
   rename_to(path_, before_.path);
+  own_ = {id_of(path_), id_of(next_.path)};
 }
 
 RecordingWriter::RecordingWriter(std::string path, const RecordingHeader& header, const std::vector<FixedTable>& tables)
-    : path_(std::move(path)), next_{path_ + ".next"}, before_{path_ + ".before"}, header_(header) {
+    : path_(std::move(path)), next_{path_ + ".next", own_}, before_{path_ + ".before", own_}, header_(header) {
   write_both([&](const std::string& to) {
     TableFile file = TableFile::create(to);
     file.set_text("schema", schema + std::to_string(recording_version));
@@ -144,7 +157,7 @@ void cut_short(TableFile& file, const RecordingHeader& header, std::size_t steps
 
 RecordingWriter::RecordingWriter(std::string path, const RecordingHeader& header, const std::string& from,
                                  std::size_t steps)
-    : path_(std::move(path)), next_{path_ + ".next"}, before_{path_ + ".before"}, header_(header) {
+    : path_(std::move(path)), next_{path_ + ".next", own_}, before_{path_ + ".before", own_}, header_(header) {
   {
     const RecordingReader before(from);
     if (before.input_columns() != header.input_columns || before.signal_columns() != header.signal_columns ||
@@ -190,8 +203,19 @@ void RecordingWriter::take_turns() const {
   rename_to(next_.path, before_.path);
 }
 
+/// Who removes or renames the folder of a run takes both files along. What has their names then is another run's.
+TableFile RecordingWriter::open_next() const {
+  if (const FileId next = id_of(next_.path); next == FileId{} || (next != own_[0] && next != own_[1]))
+    throw WriteError(
+        fmt::format("{}: cannot be written on, since {} is {}; was its folder removed or renamed? What was recorded "
+                    "until then went "
+                    "with it",
+                    path_, next_.path, next == FileId{} ? "gone" : "another's"));
+  return TableFile::open(next_.path, true);
+}
+
 void RecordingWriter::commit(RecordingBlock block) {
-  TableFile file = TableFile::open(next_.path, true);
+  TableFile file = open_next();
   write(file, last_);
   write(file, block);
   file.close();
@@ -200,7 +224,7 @@ void RecordingWriter::commit(RecordingBlock block) {
 }
 
 void RecordingWriter::finish(const std::string& end) {
-  TableFile file = TableFile::open(next_.path, true);
+  TableFile file = open_next();
   write(file, last_);
   file.set_text("end", end);
   file.close();
@@ -237,6 +261,9 @@ void RecordingReader::require_layout() const {
     throw LoadError(path_ + ": has rows of another width than its columns' names say; it is damaged");
   if (file_.rows("signals") > steps() / steps_per_signal + 1 || states() > steps() / steps_per_state + 1)
     throw LoadError(path_ + ": has more signals or states than its steps have; it is damaged");
+  if (file_.rows("signals") < steps() / steps_per_signal)
+    throw LoadError(fmt::format("{}: has signals of {} of its {} steps: they are cut short; copy the file again", path_,
+                                file_.rows("signals") * steps_per_signal, steps()));
 }
 
 double RecordingReader::step_s() const {

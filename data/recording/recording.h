@@ -5,10 +5,12 @@
 /// Writing survives a crash of the program at any moment, and a full disk, by alternating two files: one is complete
 /// and closed under the recording's name, while the other, NAME.next, is opened, brought up to date, closed and renamed
 /// to take its place.
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "data/recording/table_file.h"
@@ -68,6 +70,7 @@ struct FixedTable {
 
 class RecordingWriter {
  public:
+  using FileId = std::pair<std::uint64_t, std::uint64_t>;  ///< device and number of a file, whatever its name
   /// Creates both files. Throws WriteError, and leaves neither; what was there is then as it was.
   RecordingWriter(std::string path, const RecordingHeader& header, const std::vector<FixedTable>& tables = {});
   /// Goes on after the first `steps` of another recording of the same run, a multiple of steps_per_state. That one is
@@ -86,14 +89,17 @@ class RecordingWriter {
   void write(TableFile& file, const RecordingBlock& block) const;
   void write_both(const std::function<void(const std::string& path)>& write);
   void take_turns() const;
+  TableFile open_next() const;
 
   /// A file's second name, removed at the end.
   struct Beside {
     std::string path;
+    const std::array<FileId, 2>& own;
     ~Beside();
   };
   std::string path_;
-  Beside next_, before_;  ///< the other file; one that is about to be renamed
+  std::array<FileId, 2> own_;  ///< of the two files, which exchange their names
+  Beside next_, before_;       ///< the other file; one that is about to be renamed
   RecordingHeader header_;
   RecordingBlock last_;  ///< in the recording, but not yet in the other file
 };

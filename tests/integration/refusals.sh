@@ -220,3 +220,17 @@ refused "imaging.noise_sigma_px is 1e-09; expected .* 1e-3 or more" explain seen
 refused "written to 0.1 px: rounding alone makes 0.029" explain seen/digits.json -o none
 refused "its noise is not declared" predict seen/no-noise.json --with rosen -o none
 [[ ! -e none ]]
+# A folder that may not be written in is refused before anything is built; root may write everywhere.
+mkdir closed && chmod 555 closed
+who=()
+if [[ $(id -u) == 0 ]]; then
+  chmod 711 .
+  who=(setpriv --reuid=65534 --regid=65534 --clear-groups)
+fi
+if "${who[@]}" test -x "$ostium"; then
+  expect 1 "^ostium: closed: cannot be written (Permission denied)" "${who[@]}" "$ostium" run rca-mid-focal \
+    --script iliac-wire --seconds 0.1 --out closed
+fi
+# Endings say what a file is to be, in upper case, too.
+"$ostium" frame rca-mid-focal --pixels 64 -o FRAME.PNG >/dev/null
+[[ $(head -c 4 FRAME.PNG) == $'\x89PNG' ]]

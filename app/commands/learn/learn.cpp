@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 
 #include "app/command_line/arguments.h"
 #include "app/command_line/command.h"
@@ -97,8 +98,10 @@ std::size_t place_of(const data::Course& course, const Progress& progress, const
 int run(const Arguments& a) {
   const data::Course course = data::find_course(a.course);
   std::vector<CheckedLesson> lessons;
+  std::map<std::string, data::ScoreList> lists;  // each read once
   for (const data::Lesson& lesson : course.lessons) {
-    data::ScoreList list = list_of(course, lesson);
+    if (!lists.contains(lesson.scoring)) lists[lesson.scoring] = list_of(course, lesson);
+    data::ScoreList list = lists[lesson.scoring];
     std::vector<std::size_t> needed = must_hold(course, lesson, list);
     require_events(course, lesson);
     lessons.push_back({std::move(list), std::move(needed)});

@@ -62,6 +62,10 @@ std::string until_words(const data::Script& script, const data::ScriptCondition&
                                              std::fabs(mm), mm < 0 ? "short of" : "beyond");
     case ConditionKind::balloon_within:
       return "the middle between its two marks lies in the middle of the narrowing";
+    case ConditionKind::balloon_spans:
+      return mm > 0   ? fmt::format("its two marks lie {:.3g} mm beyond the narrowing on both sides", mm)
+             : mm < 0 ? "its two marks lie at both ends of the narrowing"
+                      : "its two marks lie on both sides of the narrowing";
     case ConditionKind::balloon_clear:
       return "the balloon is clear of the guide's tip";
     case ConditionKind::balloon_open:

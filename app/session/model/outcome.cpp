@@ -81,6 +81,14 @@ std::optional<double> balloon_from_lesion_m(const SessionModel& model, const Ses
   return state.treatment.balloon.seat_m - (plan.from_m + plan.to_m) / 2;
 }
 
+std::optional<double> balloon_beyond_lesion_m(const SessionModel& model, const SessionState& state, int lesion) {
+  const std::optional<double> from_middle_m = balloon_from_lesion_m(model, state, lesion);
+  if (!from_middle_m) return {};
+  const Plan& plan = plan_of(model, lesion);
+  const double length_m = model.treatment.balloons[static_cast<std::size_t>(state.coupling.balloon)].length_m;
+  return (length_m - (plan.to_m - plan.from_m)) / 2 - std::fabs(*from_middle_m);
+}
+
 std::optional<Stretch> stented(const SessionModel& model, const SessionState& state, int lesion) {
   const Plan& plan = plan_of(model, lesion);
   const Stretch ill{0, plan.to_m - plan.from_m};

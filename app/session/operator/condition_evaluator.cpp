@@ -114,6 +114,10 @@ constexpr MeasureOfKind measures[] = {
      [](const Evaluator& e, const Condition& c) { return e.balloon_from_lesion(c.lesion); }},
     {Kind::balloon_within, Settled::by_test,
      [](const Evaluator& e, const Condition& c) { return std::fabs(e.balloon_from_lesion(c.lesion)); }},
+    {Kind::balloon_spans, Settled::at_least,
+     [](const Evaluator& e, const Condition& c) {
+       return balloon_beyond_lesion_m(e.model, e.session, c.lesion).value_or(std::numeric_limits<double>::quiet_NaN());
+     }},
     {Kind::balloon_clear, Settled::at_least,
      [](const Evaluator& e, const Condition&) { return e.balloon_beyond_guide_m(); }},
     {Kind::flow_below, Settled::below,

@@ -206,19 +206,11 @@ void end(Outcome outcome, int condition, OperatorState& state) {
 
 void go_to(int step, OperatorState& state) { state.step = step, state.began = true; }
 
-/// The step after `s`, skipping detours unless `s` is one itself.
-int after(const data::Script& script, int s) {
-  const auto is_detour = [&](int one) { return script.steps[static_cast<std::size_t>(one)].detour; };
-  int next = s + 1;
-  if (!is_detour(s))
-    while (next < static_cast<int>(script.steps.size()) && is_detour(next)) ++next;
-  return next;
-}
-
 /// The step that `s` jumps to when it fails; -1: none. `tries` counts its jumps, including the last resort.
 int leads_to(const data::Script& script, int s, int& tries) {
   const data::ScriptStep& step = script.steps[static_cast<std::size_t>(s)];
-  if (step.otherwise == data::ScriptStep::Otherwise::go_on) return after(script, s);
+  if (step.otherwise == data::ScriptStep::Otherwise::go_on)
+    return static_cast<int>(script.after(static_cast<std::size_t>(s)));
   if (step.otherwise == data::ScriptStep::Otherwise::fail) return -1;
   const bool last = step.last_resort >= 0 && tries == step.tries;
   if (!last && tries >= (step.last_resort >= 0 ? 2 * step.tries + 1 : step.tries)) return -1;
@@ -295,7 +287,7 @@ Outcome decide(const ScriptPlan& plan, const SessionModel& model, const SessionS
     const int until = evaluator.first_that_holds(step.until, plan.until_places[static_cast<std::size_t>(s)]);
     if (!takes_time(step) || until >= 0 || is_over(step, evaluator)) {
       if (until >= 0) events.push_back({Kind::done, s, until});
-      go_to(after(plan.script, s), state);
+      go_to(static_cast<int>(plan.script.after(static_cast<std::size_t>(s))), state);
       continue;
     }
     const int unless = evaluator.first_that_holds(step.unless, plan.unless_places[static_cast<std::size_t>(s)]);

@@ -13,8 +13,8 @@ namespace {
 using Kind = data::ConditionKind;
 
 bool needs_balloon(Kind kind) {
-  return kind == Kind::balloon_at || kind == Kind::balloon_within || kind == Kind::balloon_clear ||
-         kind == Kind::balloon_open;
+  return kind == Kind::balloon_at || kind == Kind::balloon_within || kind == Kind::balloon_spans ||
+         kind == Kind::balloon_clear || kind == Kind::balloon_open;
 }
 
 bool needs_tool_in_body(Kind kind) {

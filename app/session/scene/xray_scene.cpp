@@ -55,6 +55,16 @@ fluoro::OpaqueSection section(const data::Instrument& instrument, double from_m,
   return {from_m, to_m, material_of(material), radius, inner, ring > 0 ? area / ring : 0};
 }
 
+/// A marker band. One that has a diameter of its own lies on an inner tube, and is seen denser and narrower than the
+/// same metal spread over the folds round it.
+fluoro::OpaqueSection section(const data::Instrument& instrument, const data::Marker& marker) {
+  const double from_m = marker.from_tip_m, to_m = marker.from_tip_m + marker.length_m;
+  if (!marker.outer_diameter_m) return section(instrument, from_m, to_m, marker.material, marker.thickness_m);
+  const double outer = 0.5 * *marker.outer_diameter_m, area = marker.thickness_m * *marker.outer_diameter_m;
+  return {from_m, to_m, material_of(marker.material), outer, std::sqrt(std::max(0.0, outer * outer - area / units::pi)),
+          1};
+}
+
 /// Sets the contrast in a guide's bore from the line's cells (contrast.h), those of the catheter.
 void fill_bore(const SessionModel& model, const SessionState& state, const core::Rod& rod, fluoro::Shaft& shaft) {
   const vascular::Line line = line_of(model.tools[static_cast<std::size_t>(state.coupling.guide)].instrument);
@@ -124,8 +134,7 @@ std::vector<fluoro::OpaqueSection> sections_of(const data::Instrument& instrumen
   for (const data::OpaqueStretch& o : instrument.opaque)
     if (!stent_left || o.material != data::OpaqueMaterial::cobalt_chromium)
       sections.push_back(section(instrument, o.from_tip_m, o.to_tip_m, o.material, o.thickness_m));
-  for (const data::Marker& m : instrument.markers)
-    sections.push_back(section(instrument, m.from_tip_m, m.from_tip_m + m.length_m, m.material, m.thickness_m));
+  for (const data::Marker& m : instrument.markers) sections.push_back(section(instrument, m));
   return sections;
 }
 

@@ -11,6 +11,7 @@
 #include "data/formats/markup.h"
 #include "data/formats/png.h"
 #include "data/formats/write_file.h"
+#include "vascular/geometry/mesh_files/formats.h"
 
 namespace ostium::data {
 
@@ -110,8 +111,9 @@ class Drawer {
 
 void draw_mesh(const std::string& file, const vascular::Mesh& mesh, const std::vector<Eigen::Vector3d>& rgb_of_vertex,
                const std::vector<PictureMark>& marks, const std::string& title) {
-  const bool svg = file.ends_with(".svg");
-  if (!svg && !file.ends_with(".png")) throw LoadError(file + ": what is it to be? .png and .svg are known");
+  const bool svg = vascular::ending_of(file) == ".svg";
+  if (!svg && vascular::ending_of(file) != ".png")
+    throw LoadError(file + ": what is it to be? .png and .svg are known");
   Drawer drawer(mesh, rgb_of_vertex);
   Image& image = drawer.image();
   if (!svg) {

@@ -3,13 +3,13 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <filesystem>
 
 #include "core/base/units.h"
 #include "data/catalogue/case/tree_keys.h"
 #include "data/formats/json/json_object.h"
 #include "data/formats/write_file.h"
 #include "vascular/geometry/mesh/patient_frame.h"
+#include "vascular/geometry/mesh_files/formats.h"
 
 namespace ostium::data {
 
@@ -123,7 +123,7 @@ std::string tree_to_vtp(const vascular::SphereTree& tree, std::optional<vascular
 }
 
 bool writes_tree_as_json(const std::string& file) {
-  const std::string ending = std::filesystem::path(file).extension().string();
+  const std::string ending = vascular::ending_of(file);
   if (ending != ".json" && ending != ".vtp")
     throw LoadError(
         fmt::format("{}: the ending \"{}\" names no format of a tree; expected .json or .vtp", file, ending));

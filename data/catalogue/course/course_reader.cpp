@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
+#include <set>
 
 #include "data/catalogue/case/case.h"
 #include "data/catalogue/catalogue.h"
@@ -97,7 +99,25 @@ std::vector<Instruction> read_instructions(const JsonObject& object, const Scrip
   return out;
 }
 
-Lesson read_lesson(const JsonValue& value) {
+/// What lessons name, each file read once: a course of thousands names the same few again and again.
+struct Named {
+  std::map<std::string, std::optional<vascular::Access>> access_of_case;  ///< none: any
+  std::map<std::string, Script> scripts;
+};
+
+/// The one of this name, found now if it is the first time.
+template <class T, class Find>
+const T& found_once(std::map<std::string, T>& known, const std::string& name, const Find& find) {
+  const auto at = known.find(name);
+  return at != known.end() ? at->second : known.emplace(name, find(name)).first->second;
+}
+
+std::optional<vascular::Access> access_of(const std::string& case_name) {
+  const Case of_lesson = find_case(case_name);
+  return of_lesson.imported ? std::nullopt : std::optional(of_lesson.anatomy.access);
+}
+
+Lesson read_lesson(const JsonValue& value, Named& named) {
   const JsonObject object(value, course_keys::lesson);
   Lesson lesson;
   lesson.name = object.text("name");
@@ -106,17 +126,13 @@ Lesson read_lesson(const JsonValue& value) {
   lesson.case_name = from_course(object, "case"), lesson.script = from_course(object, "script");
   lesson.scoring = from_course(object, "scoring");
   std::optional<vascular::Access> access;
-  Script expert;
-  require(object, "case", [&](const std::string& name) {
-    const Case of_lesson = find_case(name);
-    if (!of_lesson.imported) access = of_lesson.anatomy.access;
-  });
+  const Script* expert = nullptr;
+  require(object, "case", [&](const std::string& name) { access = found_once(named.access_of_case, name, access_of); });
   require(object, "script", [&](const std::string& name) {
-    Script script = find_script(name);
-    require_access(script, access, lesson.case_name);
-    expert = std::move(script);
+    expert = &found_once(named.scripts, name, find_script);
+    require_access(*expert, access, lesson.case_name);
   });
-  lesson.instructions = read_instructions(object, expert);
+  lesson.instructions = read_instructions(object, *expert);
   if (object.has("person")) lesson.person = static_cast<std::uint64_t>(object.whole("person"));
   if (object.has("begin")) lesson.begin = course_keys::beginnings[object.choice("begin", course_keys::beginnings)];
   lesson.must_hold = texts(object, "must_hold");
@@ -139,10 +155,11 @@ Course read_course(const std::string& file, const std::string& text) {
   course.name = object.text("name"), course.title = object.text("title"), course.note = object.text("note");
   if (course.name != fs::path(file).stem().string()) object.refuse("name");
   if (object.list("lessons").empty()) object.refuse("lessons");
+  Named named;
+  std::set<std::string> names;
   for (const JsonValue& one : object.list("lessons")) {
-    course.lessons.push_back(read_lesson(one));
-    for (std::size_t i = 0; i + 1 < course.lessons.size(); ++i)
-      if (course.lessons[i].name == course.lessons.back().name) one.refuse("a lesson with a name of its own");
+    course.lessons.push_back(read_lesson(one, named));
+    if (!names.insert(course.lessons.back().name).second) one.refuse("a lesson with a name of its own");
   }
   return course;
 }

@@ -39,7 +39,8 @@ struct Marker {
   double from_tip_m = 0;  ///< its distal edge
   double length_m = 0;
   OpaqueMaterial material = OpaqueMaterial::platinum;
-  double thickness_m = 0;  ///< as in OpaqueStretch, of the band alone
+  double thickness_m = 0;                       ///< as in OpaqueStretch, of the band alone
+  std::optional<double> outer_diameter_m = {};  ///< its own: a solid ring within the instrument; none: spread over it
 };
 
 /// How a balloon or stent shaft runs over its wire.

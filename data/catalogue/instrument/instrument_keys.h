@@ -159,7 +159,11 @@ inline const JsonObjectKeys marker = {
     {{"from_tip_mm", true, "the distance of its distal edge from the tip in mm, >= 0", json_type::number(from_zero)},
      {"length_mm", true, "the band's length in mm, > 0, its end within the instrument", json_type::number(above_zero)},
      {"material", true, "what absorbs X-rays", json_type::choice(opaque_materials())},
-     {"thickness_mm", true, "the band's cross-section divided by the outer diameter, in mm, > 0",
+     {"thickness_mm", true, "the band's cross-section divided by its outer diameter, in mm, > 0",
+      json_type::number(above_zero)},
+     {"outer_diameter_mm", false,
+      "the band's, where it is narrower than the instrument, in mm, > 0; then it is solid, and its thickness at most "
+      "pi/4 of that",
       json_type::number(above_zero)},
      {"source", false, source_text, json_type::text()}}};
 

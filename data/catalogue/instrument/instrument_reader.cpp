@@ -216,10 +216,18 @@ void read_markers(const JsonObject& group, Instrument& instrument) {
   for (const JsonValue& value : group.list("list")) {
     const JsonObject entry(value, instrument_keys::marker);
     keep_source(entry, instrument);
-    const Marker marker{.from_tip_m = entry.not_negative("from_tip_mm") * mm,
-                        .length_m = entry.positive("length_mm") * mm,
-                        .material = read_material(entry),
-                        .thickness_m = entry.positive("thickness_mm") * mm};
+    Marker marker{.from_tip_m = entry.not_negative("from_tip_mm") * mm,
+                  .length_m = entry.positive("length_mm") * mm,
+                  .material = read_material(entry),
+                  .thickness_m = entry.positive("thickness_mm") * mm};
+    if (entry.has("outer_diameter_mm")) {
+      marker.outer_diameter_m = entry.positive("outer_diameter_mm") * mm;
+      if (*marker.outer_diameter_m > instrument.outer_diameter_m)
+        entry["outer_diameter_mm"].refuse(
+            fmt::format("at most the instrument's {} mm", instrument.outer_diameter_m / mm));
+      if (marker.thickness_m > std::numbers::pi / 4 * *marker.outer_diameter_m)
+        entry["thickness_mm"].refuse("at most pi/4 of the band's outer diameter");
+    }
     if (marker.from_tip_m + marker.length_m > instrument.length_m)
       entry["from_tip_mm"].refuse(
           fmt::format("a band that ends within the instrument's {} mm", instrument.length_m / mm));

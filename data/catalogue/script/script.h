@@ -89,6 +89,8 @@ struct Script {
   std::vector<ScriptStep> steps;
   bool by_hand = false;  ///< people move the instruments: no step has to be done, and they end the run
   std::string source;    ///< the file's text, with the steps of other scripts written out
+  /// The step after `s`, skipping detours unless `s` is one itself; the count of steps: the end.
+  std::size_t after(std::size_t s) const;
 };
 
 /// A step { "do": "script", "script": "parts/treat" } stands for the steps of that file, whose path is relative to the

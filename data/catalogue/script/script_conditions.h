@@ -30,6 +30,7 @@ enum class ConditionKind {
   beats,
   balloon_at,
   balloon_within,
+  balloon_spans,
   balloon_clear,
   balloon_open,
   balloon_empty,
@@ -131,6 +132,9 @@ inline constexpr ConditionRow condition_rows[] = {
      "from either side, judged while the heart rests"},
     {ConditionKind::balloon_within, "balloon_within_mm", ConditionValue::number, ConditionOf::lesion, condition_units::mm, above_zero, "",
      "that middle is no farther from the lesion's, either way, in mm, > 0; judged while the heart rests"},
+    {ConditionKind::balloon_spans, "balloon_spans_mm", ConditionValue::number, ConditionOf::lesion, condition_units::mm, {}, "",
+     "both markers lie so far beyond the lesion's ends, or, if negative, short of them by no more, at this moment of the "
+     "beat, in mm"},
     {ConditionKind::balloon_clear, "balloon_clear_of_guide_mm", ConditionValue::number, ConditionOf::patient, condition_units::mm, above_zero, "",
      "its proximal marker is so far out of the guide, or the guide is out of the body, in mm, > 0"},
     {ConditionKind::balloon_open, "balloon_open", ConditionValue::only_true, ConditionOf::patient, 0, {}, "",

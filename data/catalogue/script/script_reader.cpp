@@ -196,6 +196,29 @@ void read_otherwise(const JsonValue& value, Script& script, ScriptStep& step) {
   if (object.has("last_resort")) step.last_resort = step_called("last_resort");
 }
 
+/// A detour is reached by its label, or from the detour before it; all other steps by those before them.
+void require_reached(const std::vector<JsonValue>& values, const Script& script) {
+  const auto end = script.steps.size();
+  std::vector<bool> reached(end, false);
+  std::vector<std::size_t> next = {0};
+  while (!next.empty()) {
+    const std::size_t s = next.back();
+    next.pop_back();
+    if (s >= end || reached[s]) continue;
+    reached[s] = true;
+    const ScriptStep& step = script.steps[s];
+    next.push_back(script.after(s));
+    for (const int to : {step.jump_to, step.last_resort})
+      if (to >= 0) next.push_back(static_cast<std::size_t>(to));
+  }
+  for (std::size_t s = 0; s < end; ++s)
+    if (!reached[s])
+      values[s].fail(fmt::format(
+          "{} is a detour that no step leads to, {}; expected its label as \"otherwise\" or \"last_resort\" of a step "
+          "that is reached, or no \"detour\"",
+          values[s].path(), script.steps[s].words()));
+}
+
 ScriptTool read_tool(const JsonObject& tool) {
   ScriptTool out{tool.text("name"), tool.text("instrument"), tool.value().line, {}, 0, 0, read_lesion(tool), {}};
   if (tool.has("over")) out.over = tool.text("over");
@@ -249,6 +272,7 @@ Script read(JsonValue file, const std::string& text) {
         value.fail(value.path() + ".label: there is another step \"" + label + "\"");
   }
   for (std::size_t s = 0; s < steps.size(); ++s) read_otherwise(steps[s], script, script.steps[s]);
+  require_reached(steps, script);
   return script;
 }
 
@@ -257,6 +281,13 @@ Script read(JsonValue file, const std::string& text) {
 std::string ScriptStep::words() const {
   const std::string name = row_of(action).name;
   return label.empty() ? name : fmt::format("{} ({})", name, label);
+}
+
+std::size_t Script::after(std::size_t s) const {
+  std::size_t next = s + 1;
+  if (!steps[s].detour)
+    while (next < steps.size() && steps[next].detour) ++next;
+  return next;
 }
 
 Script read_script(const std::string& file, const std::string& text) { return read(parse_json(file, text), text); }

@@ -264,6 +264,7 @@ JsonValue parse_json(const std::string& file, const std::string& text) {
         fmt::format("{}: has more than {} MiB; expected a file of JSON, at most so long: split it, or thin "
                     "out its lists",
                     file, json_limits::bytes >> 20));
+  require_utf8(file, text);
   Place place;
   Builder builder(std::make_shared<const std::string>(file), place);
   nlohmann::json::sax_parse(CountingIterator(text.data(), &place), CountingIterator(text.data() + text.size(), &place),

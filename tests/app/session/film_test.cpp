@@ -10,6 +10,8 @@
 
 #include "app/session/run/filming.h"
 #include "app/session/run/run.h"
+#include "app/session/scene/xray_scene.h"
+#include "data/catalogue/catalogue.h"
 #include "tests/app/session/tube_vessel.h"
 #include "tests/support/renderers.h"
 
@@ -23,6 +25,23 @@ namespace ostium::app {
 namespace {
 
 using fluoro::DrawnBy;
+
+/// Spread over the folds round it, the same metal is half as dense and twice as wide: marks are then hardly seen.
+TEST(Film, AMarkerBandIsSolidAndAsWideAsItsTube) {
+  for (const char* name : {"balloon-275x12", "stent-35x18"}) {
+    const data::Instrument instrument = data::find_instrument(data::load_catalogue(), name);
+    int bands = 0;
+    for (const fluoro::OpaqueSection& s : sections_of(instrument)) {
+      if (s.material != fluoro::Material::platinum) continue;
+      ++bands;
+      EXPECT_NEAR(s.outer_radius_m, 0.33e-3, 1e-9) << name;
+      EXPECT_NEAR(s.inner_radius_m, 0.28e-3, 2e-6) << name << ": on the inner tube of 0.56 mm";
+      EXPECT_EQ(s.filling, 1) << name;
+      EXPECT_NEAR(s.to_tip_m - s.from_tip_m, 1e-3, 1e-9) << name;
+    }
+    EXPECT_EQ(bands, 2) << name;
+  }
+}
 
 TEST(Film, FramesFallOnTheirSteps) {
   for (double rate : {3.75, 7.5, 15.0, 30.0}) {

@@ -7,11 +7,14 @@
 #include <csignal>
 #include <filesystem>
 #include <fstream>
+#include <memory>
 
 #include "app/session/run/replay.h"
 #include "core/rod/introducer.h"
 #include "data/formats/write_file.h"
+#include "data/recording/recording.h"
 #include "tests/app/session/recorded.h"
+#include "tests/data/refusals.h"
 
 namespace ostium::app {
 namespace {
@@ -176,6 +179,61 @@ TEST(TableFile, WithoutRoomToBeginARecordingIsRefused) {
     EXPECT_FALSE(std::filesystem::exists(folder("run.h5.before")));
   }
   std::signal(SIGXFSZ, handler);
+}
+
+data::RecordingHeader small_header() {
+  data::RecordingHeader header;
+  header.full = false;
+  header.input_columns = header.signal_columns = {"x"};
+  return header;
+}
+
+data::RecordingBlock forty_steps() {
+  data::RecordingBlock block;
+  block.inputs.resize(40), block.hashes.resize(40), block.signals.resize(4);
+  return block;
+}
+
+TEST(Recording, WithFewerSignalsThanItsStepsHaveIsCutShort) {
+  const Folder folder;
+  {
+    data::RecordingWriter writer(folder("run.h5"), small_header());
+    writer.commit(forty_steps());
+    writer.finish("{}");
+  }
+  EXPECT_EQ(data::RecordingReader(folder("run.h5")).steps(), 40u);
+  {
+    data::TableFile file = data::TableFile::open(folder("run.h5"), true);
+    file.shorten("signals", 3);
+    file.close();
+  }
+  const std::string said = data::refusal_of([&] { data::RecordingReader reader(folder("run.h5")); });
+  data::expect_words(said, {"run.h5: has signals of 30 of its 40 steps", "cut short"});
+}
+
+TEST(Recording, WhoseFolderVanishesSaysSo) {
+  const Folder folder;
+  std::filesystem::create_directory(folder("out"));
+  auto begun = std::make_unique<data::RecordingWriter>(folder("out/run.h5"), small_header());
+  data::RecordingWriter& writer = *begun;
+  writer.commit(forty_steps());
+  std::filesystem::rename(folder("out"), folder("elsewhere"));
+  for (const bool ends : {false, true}) try {
+      ends ? writer.finish("{}") : writer.commit(forty_steps());
+      ADD_FAILURE();
+    } catch (const data::WriteError& error) {
+      data::expect_words(error.what(), {"out/run.h5: cannot be written on", "its folder removed or renamed?"});
+    }
+  EXPECT_EQ(data::RecordingReader(folder("elsewhere/run.h5")).steps(), 40u) << "what there was went with it";
+
+  // Another run may have begun in its place.
+  std::filesystem::create_directory(folder("out"));
+  data::RecordingWriter other(folder("out/run.h5"), small_header());
+  EXPECT_THROW(writer.commit(forty_steps()), data::WriteError);
+  other.commit(forty_steps());
+  begun.reset();
+  other.commit(forty_steps());
+  EXPECT_EQ(data::RecordingReader(folder("out/run.h5")).steps(), 80u);
 }
 
 }  // namespace

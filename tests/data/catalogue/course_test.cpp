@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <ctime>
 #include <string>
 
 #include "data/assessment/score_list.h"
@@ -32,6 +33,21 @@ TEST(Course, ThoseThatShipHaveWhatTheyName) {
             << lesson.name << ", " << id;
     }
   }
+}
+
+/// Each lesson's case and script were read anew: 3,000 lessons took a minute.
+TEST(Course, OfThousandsOfLessonsIsReadInASecond) {
+  const auto lesson = good.find("{ \"name\": \"one\"");
+  std::string many = good.substr(0, lesson);
+  const std::string one = good.substr(lesson, good.rfind(']') - lesson);
+  for (int i = 0; i < 3000; ++i) {
+    std::string own = one;
+    own.replace(own.find("\"one\""), 5, "\"l" + std::to_string(i) + "\"");
+    many += (i ? "," : "") + own;
+  }
+  const std::clock_t before = std::clock();
+  EXPECT_EQ(read_course("mine.json", many + "] }").lessons.size(), 3000u);
+  EXPECT_LT(static_cast<double>(std::clock() - before) / CLOCKS_PER_SEC, 10) << "of this process' time";
 }
 
 TEST(Course, AFaultyOneNamesFileLineKeyAndCure) {

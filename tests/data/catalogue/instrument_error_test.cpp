@@ -112,6 +112,13 @@ TEST(InstrumentErrors, NumbersThatCannotBe) {
   expect_words(refusal(R"("inner_diameter_mm": 1.8)", R"("inner_diameter_mm": 0)"), {"size.inner_diameter_mm is 0"});
   expect_words(refusal(R"("from_tip_mm": 5)", R"("from_tip_mm": 999.5)"),
                {"folder/hook.json:30: markers.list[0].from_tip_mm is 999.5", "within the instrument's 1000 mm"});
+  const auto band = [](const std::string& more) {
+    return refusal(R"("material": "gold", "thickness_mm": 0.1)", R"("material": "gold", "thickness_mm": 0.1, )" + more);
+  };
+  EXPECT_EQ(band(R"("outer_diameter_mm": 1)"), "accepted");
+  expect_words(band(R"("outer_diameter_mm": 3)"),
+               {"folder/hook.json:30: markers.list[0].outer_diameter_mm is 3", "at most the instrument's 2 mm"});
+  expect_words(band(R"("outer_diameter_mm": 0.1)"), {":30: markers.list[0].thickness_mm is 0.1", "pi/4"});
   expect_words(refusal(R"("passes_mm": 1.75)", R"("passes_mm": 1.9)"),
                {":35: clearance.passes_mm is 1.9", "inner diameter"});
   expect_words(refusal(R"("passes_mm": 1.75, )", ""), {":34: clearance has no number"});

@@ -110,6 +110,10 @@ TEST(Script, MistakesAreNamedByLine) {
   expect_words(script_refusal("\"label\": \"up\"", "\"label\": \"up\", \"detour\": 1"), {"small.json:8:", "true"});
   expect_words(script_refusal("\"view\": \"spider\"", "\"view\": \"spider\", \"detour\": true"),
                {"small.json:7:", "Not the first step"});
+  expect_words(script_refusal("\"do\": \"wait\"", "\"do\": \"wait\", \"label\": \"on\", \"detour\": true"),
+               {"small.json:12:", "no step leads to", "wait (on)", "otherwise"});
+  expect_words(script_refusal("\"otherwise\": \"up\", \"tries\": 2", "\"detour\": true, \"otherwise\": \"up\""),
+               {"small.json:10:", "no step leads to", "turn"});
   expect_words(script_refusal(", \"within_deg\": 20", ""), {"small.json:12:", "within_deg is missing"});
   expect_words(script_refusal("\"tip_points\": \"left\", \"within_deg\": 20", "\"tip_faces\": \"RCA\""),
                {"small.json:12:", "within_deg is missing"});

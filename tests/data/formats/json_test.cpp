@@ -37,6 +37,13 @@ TEST(Json, EveryLimitIsNamedWithFilePlaceAndNumber) {
   EXPECT_EQ(refusal("{\"" + std::string(bytes, 'k') + "\": [" + row(json_limits::values - 2, "0") + "]}"), "accepted");
 }
 
+TEST(Json, Utf16IsSaidToBeSuchWithOrWithoutItsMark) {
+  using namespace std::string_literals;
+  for (const std::string& text : {"\xFF\xFE{\0}\0"s, "\xFE\xFF\0{\0}"s, "{\0}\0"s, "\0{\0}"s})
+    expect_words(refusal(text), {"folder/thing.json: is UTF-16; save it as UTF-8"});
+  EXPECT_EQ(refusal("\xEF\xBB\xBF{}"), "accepted") << "UTF-8 with a mark";
+}
+
 TEST(Json, AFileWithoutEndIsRefused) {
   expect_words(refusal_of([] { load_json("/dev/zero"); }), {"/dev/zero: cannot be read, it is a device, not a file"});
 }

@@ -109,21 +109,35 @@ TEST_F(WriteFile, OnAFullDiskWhatWasThereStays) {
   }
 }
 
+bool film_of_noise(const std::string& file) {
+  VideoWriter writer(file, 64, 64, 15);
+  std::mt19937 noise(2);
+  fluoro::Picture picture;
+  picture.width = picture.height = 64;
+  for (int frame = 0; frame < 9; ++frame) {
+    picture.grey.clear();
+    for (int i = 0; i < 64 * 64; ++i) picture.grey.push_back(static_cast<std::uint8_t>(noise()));
+    writer.add(picture);
+  }
+  return writer.finish();
+}
+
+/// ffmpeg takes what stands before a colon for a protocol, and what begins with a dash for an option.
+TEST_F(WriteFile, AFilmMayBeCalledAsATimeOrAnOption) {
+  if (std::system("ffmpeg -version >/dev/null 2>&1")) GTEST_SKIP() << "ffmpeg is not there";
+  const fs::path before = fs::current_path();
+  fs::current_path(in("."));
+  for (const char* name : {"12:30.mp4", "tcp:7.mp4", "-version.mp4", "%d.mp4"}) {
+    EXPECT_TRUE(film_of_noise(name)) << name;
+    EXPECT_TRUE(fs::exists(name)) << name;
+  }
+  fs::current_path(before);
+}
+
 /// ffmpeg ends well even where it could not write a film's last part.
 TEST_F(WriteFile, AFilmCutShortIsNone) {
   if (std::system("ffmpeg -version >/dev/null 2>&1")) GTEST_SKIP() << "ffmpeg is not there";
-  const auto film = [&] {
-    VideoWriter writer(in("a.mp4"), 64, 64, 15);
-    std::mt19937 noise(2);
-    fluoro::Picture picture;
-    picture.width = picture.height = 64;
-    for (int frame = 0; frame < 9; ++frame) {
-      picture.grey.clear();
-      for (int i = 0; i < 64 * 64; ++i) picture.grey.push_back(static_cast<std::uint8_t>(noise()));
-      writer.add(picture);
-    }
-    return writer.finish();
-  };
+  const auto film = [&] { return film_of_noise(in("a.mp4")); };
   ASSERT_TRUE(film());
   const auto whole = fs::file_size(in("a.mp4"));
   std::ofstream(in("a.mp4")) << "before";

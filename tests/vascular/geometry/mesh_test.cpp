@@ -118,6 +118,11 @@ TEST(Mesh, WhatWasCutShortOrBrokenIsRefused) {
       "element face 2\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n9 0 0\n0 9 0\n0 0 9\n3 0 1 2\n";
   EXPECT_NE(refusal(written("cut.ply", ascii)).find("5 of the 6 lines"), std::string::npos);
   EXPECT_EQ(refusal(written("whole.ply", ascii + "3 0 2 3\n")), "accepted");
+  for (const char* name : {"utf16.ply", "utf16.stl", "utf16.obj"}) {  // of an STL it would be a binary header
+    std::string wide = "\xFF\xFE";
+    for (const char c : ascii) wide += c, wide += '\0';
+    EXPECT_NE(refusal(written(name, wide)).find("is UTF-16; save it as UTF-8"), std::string::npos) << name;
+  }
   EXPECT_NE(refusal(written("index.ply", ascii + "3 0 2 77\n")).find("vertex 77 of 4"), std::string::npos);
   EXPECT_NE(refusal(written("header.ply", ascii.substr(0, 60))).find("is cut short"), std::string::npos);
   // Binary formats, truncated anywhere.

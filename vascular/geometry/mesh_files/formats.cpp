@@ -32,4 +32,9 @@ bool has_mesh_ending(const std::string& path) {
   return std::ranges::find(mesh_endings(), ending_of(path)) != mesh_endings().end();
 }
 
+bool is_utf16(std::string_view beginning) {
+  if (beginning.starts_with("\xFF\xFE") || beginning.starts_with("\xFE\xFF")) return true;
+  return beginning.size() > 1 && (beginning[0] == '\0') != (beginning[1] == '\0');
+}
+
 }  // namespace ostium::vascular

@@ -1,6 +1,7 @@
 #pragma once
 /// Which formats of meshes are read. The ending decides, in upper or lower case.
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace ostium::vascular {
@@ -15,5 +16,10 @@ std::string in_lower_case(std::string text);
 /// A file's ending in lower case with its dot; empty if it has none.
 std::string ending_of(const std::string& path);
 bool has_mesh_ending(const std::string& path);
+/// Whether a text that begins so is UTF-16, which editors and shells of Windows write unless told otherwise: by its
+/// mark, or by a letter of ASCII.
+bool is_utf16(std::string_view beginning);
+inline constexpr const char* utf16_cure =
+    "is UTF-16; save it as UTF-8 (Notepad: Save as, Encoding UTF-8; PowerShell: Out-File -Encoding utf8)";
 
 }  // namespace ostium::vascular

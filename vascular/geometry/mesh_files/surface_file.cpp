@@ -1,7 +1,10 @@
 #include <fmt/format.h>
 
+#include <array>
 #include <filesystem>
+#include <fstream>
 #include <new>
+#include <string_view>
 
 #include "vascular/geometry/mesh/mesh.h"
 #include "vascular/geometry/mesh_files/formats.h"
@@ -21,6 +24,11 @@ RawSurface read_surface(const std::string& path) {
   if (const std::uintmax_t bytes = std::filesystem::file_size(path, unseen); bytes > longest_mesh_file)
     throw MeshError(fmt::format("{}: has {} MB; expected at most {}: simplify the mesh", path, bytes / 1'000'000,
                                 longest_mesh_file / 1'000'000));
+  std::array<char, 4> start{};
+  std::ifstream(path, std::ios::binary).read(start.data(), start.size());
+  const std::string_view mark(start.data(), 2), letter(start.data() + 2, 2);  // binary files may begin with either
+  if (mark[0] != '\0' && mark[1] != '\0' && is_utf16(mark) && is_utf16(letter))
+    throw MeshError(path + ": " + utf16_cure);
   try {
     if (ending == ".off") return read_off(path);
     return ending == ".vtp" || ending == ".vtu" || ending == ".vtk" ? read_vtk(path) : read_assimp(path);
