@@ -13,11 +13,6 @@ using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-Matrix3d cross(const Vector3d& d) {
-  Matrix3d m;
-  m << 0, -d.z(), d.y(), d.z(), 0, -d.x(), -d.y(), d.x(), 0;
-  return m;
-}
 Matrix3d dense(const S3<double>& s) {
   Matrix3d m;
   m << s.xx, s.xy, s.xz, s.xy, s.yy, s.yz, s.xz, s.yz, s.zz;
@@ -82,7 +77,7 @@ struct RandomFork {
         before.block<3, 3>(0, last) = after.block<3, 3>(0, at) = Matrix3d::Identity();
         before.col(6 * N + joint.roll * N + N - 1) = to_eigen(joint.axis);
         if (joint.own_roll >= 0) after.col(at + 6 * M + joint.own_roll * M) = to_eigen(joint.own_axis);
-        const Matrix3d H = dense(joint.stiffness), X = -H + 0.5 * cross(to_eigen(joint.moment));
+        const Matrix3d H = dense(joint.stiffness), X = -H + 0.5 * cross_matrix(to_eigen(joint.moment));
         matrix += before.transpose() * H * before + before.transpose() * X * after +
                   after.transpose() * X.transpose() * before;
         right += before.transpose() * to_eigen(joint.moment);

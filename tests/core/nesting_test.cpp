@@ -13,6 +13,7 @@
 #include "core/rod/introducer.h"
 #include "core/samples/steel_wire.h"
 #include "core/step/step.h"
+#include "tests/core/plain_rod.h"
 #include "tests/support/allocations.h"
 
 namespace ostium::core {
@@ -20,30 +21,15 @@ namespace {
 
 using Eigen::Vector3d;
 
-RodDescription rod(double length_m, double EI_N_m2, double radius_m, double bore_m, int elements) {
-  RodDescription d;
-  d.name = "rod";
-  Section s;
-  s.to_tip_m = length_m;
-  s.EI1_N_m2 = s.EI2_N_m2 = EI_N_m2;
-  s.GJ_N_m2 = EI_N_m2 / 1.3;
-  s.kg_per_m = 4e-3;
-  s.radius_m = radius_m, s.inner_radius_m = bore_m;
-  d.sections = {s};
-  d.element_lengths_m = equal_elements(d.sections, elements);
-  d.damping = {0.007, 0.0035, 1e-3};
-  return d;
-}
-
 /// A catheter that is curved at its tip, and a wire in it that protrudes.
 Model catheter_and_wire() {
-  RodDescription catheter = rod(0.25, 1.5e-3, 0.9e-3, 0.6e-3, 125);
+  RodDescription catheter = plain_rod(0.25, 1.5e-3, 0.9e-3, 0.6e-3, 125);
   Section tip = catheter.sections[0];
   tip.to_tip_m = 0.04, tip.rest_curvature_per_m = {0, 20, 0};
   catheter.sections[0].from_tip_m = 0.04;
   catheter.sections.insert(catheter.sections.begin(), tip);
   Model model;
-  model.rods = {make_rod(catheter), make_rod(rod(0.35, 1e-3, 0.45e-3, 0, 150))};
+  model.rods = {make_rod(catheter), make_rod(plain_rod(0.35, 1e-3, 0.45e-3, 0, 150))};
   model.nestings = coaxial({0, 1});
   return model;
 }
@@ -77,8 +63,9 @@ TEST(Nesting, ANestThatCannotBeIsRefused) {
 
   // Five nested rods are too many; a wire with four alternatives around it in the outermost rod is not.
   Model tubes;
-  for (int k = 0; k < 4; ++k) tubes.rods.push_back(make_rod(rod(0.35, 1e-3, (4 - k) * 1e-3, (3.8 - k) * 1e-3, 150)));
-  tubes.rods.push_back(make_rod(rod(0.35, 1e-3, 0.2e-3, 0, 150)));
+  for (int k = 0; k < 4; ++k)
+    tubes.rods.push_back(make_rod(plain_rod(0.35, 1e-3, (4 - k) * 1e-3, (3.8 - k) * 1e-3, 150)));
+  tubes.rods.push_back(make_rod(plain_rod(0.35, 1e-3, 0.2e-3, 0, 150)));
   tubes.nestings = coaxial({0, 1, 2, 3, 4});
   EXPECT_THROW(check(tubes), std::invalid_argument);
   tubes.nestings.clear();
@@ -87,7 +74,7 @@ TEST(Nesting, ANestThatCannotBeIsRefused) {
   EXPECT_NO_THROW(check(tubes));
 
   Model thick = catheter_and_wire();
-  thick.rods[1] = make_rod(rod(0.35, 1e-3, 0.65e-3, 0, 150));
+  thick.rods[1] = make_rod(plain_rod(0.35, 1e-3, 0.65e-3, 0, 150));
   EXPECT_THROW(check(thick), std::invalid_argument);
 }
 
@@ -172,7 +159,7 @@ TEST(Nesting, FourRodsBendAsOne) {
   Model model;
   double stiffness = 0, moment = 0;
   for (int i = 0; i < 4; ++i) {
-    RodDescription d = rod(0.2 + 0.01 * i, EI[i], radius[i], i < 3 ? radius[i] - 0.3e-3 : 0, 100);
+    RodDescription d = plain_rod(0.2 + 0.01 * i, EI[i], radius[i], i < 3 ? radius[i] - 0.3e-3 : 0, 100);
     d.sections[0].rest_curvature_per_m = {0, k[i], 0};
     d.damping = {1, 0.5, 1e-3};
     model.rods.push_back(make_rod(d));
@@ -204,7 +191,7 @@ TEST(Nesting, PartsThatAreTornAreAllMovedToWhereTheyLeave) {
   Model model;
   const double radius[] = {1.6e-3, 1.2e-3, 0.8e-3};
   for (int i = 0; i < 3; ++i)
-    model.rods.push_back(make_rod(rod(0.2 + 0.04 * i, 1e-3, radius[i], i < 2 ? radius[i] - 0.3e-3 : 0, 100)));
+    model.rods.push_back(make_rod(plain_rod(0.2 + 0.04 * i, 1e-3, radius[i], i < 2 ? radius[i] - 0.3e-3 : 0, 100)));
   model.nestings = coaxial({0, 1, 2});
   model.gravity_W.setZero();
   std::vector<EndState> bases(3, along_x());
@@ -225,7 +212,8 @@ TEST(Nesting, PartsThatAreTornAreAllMovedToWhereTheyLeave) {
 // A straight catheter pulled back over a held wire, without friction, does not move the wire.
 TEST(Nesting, ACatheterIsDrawnBackOverAHeldWire) {
   Model model;
-  model.rods = {make_rod(rod(0.25, 1.5e-3, 0.9e-3, 0.6e-3, 125)), make_rod(rod(0.35, 1e-3, 0.45e-3, 0, 150))};
+  model.rods = {make_rod(plain_rod(0.25, 1.5e-3, 0.9e-3, 0.6e-3, 125)),
+                make_rod(plain_rod(0.35, 1e-3, 0.45e-3, 0, 150))};
   model.nestings = coaxial({0, 1});
   model.gravity_W.setZero();
   State state = make_state(model, {along_x(), along_x()});
@@ -247,9 +235,9 @@ TEST(Nesting, FrictionInABentCatheterIsThatOfARopeOnADrum) {
     for (Section& s : d.sections) s.rest_curvature_per_m = {0, angle / length, 0};
     return make_rod(d);
   };
-  const RodDescription wire = rod(length + 0.05, 2e-5, radius, 0, 250);
+  const RodDescription wire = plain_rod(length + 0.05, 2e-5, radius, 0, 250);
   Model model;
-  model.rods = {bent(rod(length, 1, 1.2e-3, 0.5e-3, 200)), bent(wire)};
+  model.rods = {bent(plain_rod(length, 1, 1.2e-3, 0.5e-3, 200)), bent(wire)};
   model.nestings = {{.outer = 0, .inner = 1, .friction = friction}};
   model.gravity_W.setZero();
   for (Rod& r : model.rods) r.damping = {1, 0.5, 1e-3};
@@ -297,13 +285,13 @@ TEST(Nesting, FrictionInABentCatheterIsThatOfARopeOnADrum) {
 // One catheter is pulled out over a held wire with a bent tip, and another is pushed in over it.
 TEST(Nesting, ACatheterIsExchangedOverAHeldWire) {
   Model model;
-  RodDescription wire = rod(0.35, 1e-3, 0.45e-3, 0, 175);
+  RodDescription wire = plain_rod(0.35, 1e-3, 0.45e-3, 0, 175);
   Section tip = wire.sections[0];
   tip.to_tip_m = wire.sections[0].from_tip_m = 0.05;
   tip.rest_curvature_per_m = {0, 30, 0};
   wire.sections.insert(wire.sections.begin(), tip);
-  model.rods = {make_rod(rod(0.25, 1.5e-3, 0.9e-3, 0.6e-3, 125)), make_rod(rod(0.2, 3e-3, 1e-3, 0.7e-3, 100)),
-                make_rod(wire)};
+  model.rods = {make_rod(plain_rod(0.25, 1.5e-3, 0.9e-3, 0.6e-3, 125)),
+                make_rod(plain_rod(0.2, 3e-3, 1e-3, 0.7e-3, 100)), make_rod(wire)};
   model.nestings = {{0, 2}, {1, 2}};
   model.gravity_W.setZero();
   State state = make_state_at_rest_shape(model, {along_x(), along_x(), along_x()}, {0.15, 0, 0.25});
@@ -333,8 +321,9 @@ TEST(Nesting, ACatheterIsExchangedOverAHeldWire) {
 // Here a rapid-exchange shaft holds the wire over its last 10 cm; behind that, both run side by side in the guide.
 TEST(Nesting, ARapidExchangeShaftRidesOnTheWireOverItsLastStretch) {
   Model model;
-  model.rods = {make_rod(rod(0.5, 1e-3, 1e-3, 0.9e-3, 250)), make_rod(rod(0.55, 1e-4, 0.45e-3, 0.2e-3, 275)),
-                make_rod(rod(0.6, 4e-5, 0.178e-3, 0, 300))};
+  model.rods = {make_rod(plain_rod(0.5, 1e-3, 1e-3, 0.9e-3, 250)),
+                make_rod(plain_rod(0.55, 1e-4, 0.45e-3, 0.2e-3, 275)),
+                make_rod(plain_rod(0.6, 4e-5, 0.178e-3, 0, 300))};
   model.nestings = {{0, 1}, {0, 2}, {.outer = 1, .inner = 2, .lumen_m = 0.1}};
   model.gravity_W.setZero();
   State state = make_state(model, {along_x(), along_x(), along_x()}, {0.45, 0.40, 0.42});

@@ -9,6 +9,13 @@
 
 namespace ostium::core {
 
+/// v x w as a matrix that acts on w.
+inline Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& v) {
+  Eigen::Matrix3d m;
+  m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
+  return m;
+}
+
 /// A random chain and the same system as a dense matrix.
 struct RandomChain {
   RandomChain(int N, unsigned seed, double softening = 0, int rolls = 0)
@@ -25,11 +32,6 @@ struct RandomChain {
       Eigen::Matrix<double, 6, 1> v;
       v << m(0, 0), m(0, 1), m(0, 2), m(1, 1), m(1, 2), m(2, 2);
       return v;
-    };
-    const auto cross = [](const Eigen::Vector3d& d) {
-      Eigen::Matrix3d m;
-      m << 0, -d.z(), d.y(), d.z(), 0, -d.x(), -d.y(), d.x(), 0;
-      return m;
     };
     std::vector<Eigen::Matrix3d> P, H;
     std::vector<Eigen::Vector3d> m;
@@ -50,15 +52,15 @@ struct RandomChain {
       chain.gap.set(j, gap);
       const int at = 6 * j;
       matrix.block<3, 3>(at, at) = K;
-      matrix.block<3, 3>(at, at + 3) = -cross(d);
-      matrix.block<3, 3>(at + 3, at) = cross(d);
+      matrix.block<3, 3>(at, at + 3) = -cross_matrix(d);
+      matrix.block<3, 3>(at + 3, at) = cross_matrix(d);
       matrix.block<3, 3>(at + 3, at + 3) = -(P[j] + P[j + 1] + tolerances::axial_give_per_N_m * d * d.transpose());
       if (j + 1 < N) {
-        matrix.block<3, 3>(at, at + 6) = -H[j + 1] + 0.5 * cross(m[j + 1]);
+        matrix.block<3, 3>(at, at + 6) = -H[j + 1] + 0.5 * cross_matrix(m[j + 1]);
         matrix.block<3, 3>(at + 3, at + 9) = P[j + 1];
       }
       if (j > 0) {
-        matrix.block<3, 3>(at, at - 6) = -H[j] - 0.5 * cross(m[j]);
+        matrix.block<3, 3>(at, at - 6) = -H[j] - 0.5 * cross_matrix(m[j]);
         matrix.block<3, 3>(at + 3, at - 3) = P[j];
       }
       right.segment<3>(at) = torque;
