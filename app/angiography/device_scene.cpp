@@ -137,14 +137,15 @@ void add_devices(const Bedside& bed, const Plan& plan, const vascular::Patient& 
   }
   for (std::size_t i = 0; i < bed.state.stents.size(); ++i) {
     const vascular::StentState& stent = bed.state.stents[i];
-    const bool mine = bed.device.balloon >= 0 && bed.treatment.stent_on[bed.device.balloon] == static_cast<int>(i);
+    const bool mine = bed.device.balloons[0].balloon >= 0 &&
+                      bed.treatment.stent_on[bed.device.balloons[0].balloon] == static_cast<int>(i);
     if (stent.where == vascular::StentState::deployed || (stent.where == vascular::StentState::on_balloon && mine))
       add_stent(bed.treatment.stents[i], stent, plan.path, patient, scene.map(), scene.shape(), bed.blood.radius_m,
                 {.phase = phase}, {}, scene.scene());
   }
-  if (bed.device.balloon >= 0)
-    add_balloon(bed.treatment.balloons[bed.device.balloon], bed.state.balloon, plan.path, scene.map(), {.phase = phase},
-                true, scene.scene());
+  if (bed.device.balloons[0].balloon >= 0)
+    add_balloon(bed.treatment.balloons[bed.device.balloons[0].balloon], bed.state.balloons[0], plan.path, scene.map(),
+                {.phase = phase}, true, scene.scene());
   add_pools(bed.state.injury, scene.map(), bed.blood.radius_m, {.phase = phase}, scene.scene());
 }
 

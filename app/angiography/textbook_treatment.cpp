@@ -176,22 +176,22 @@ InflationRecord inflate(Bedside& bed, const Plan& plan, int balloon, double gaug
   constexpr double pump_Pa_s = 2 * atm, vacuum_s = 15;
   const vascular::BalloonModel& model = bed.treatment.balloons[balloon];
   InflationRecord record{.device = model.name};
-  bed.device.balloon = balloon, bed.device.branch = plan.branch;
-  bed.device.shaft.middle_m = balloon == plan.proximal ? plan.proximal_middle_m : plan.middle_m;
-  bed.device.gauge_Pa = 0;
+  bed.device.balloons[0].balloon = balloon, bed.device.balloons[0].branch = plan.branch;
+  bed.device.balloons[0].shaft.middle_m = balloon == plan.proximal ? plan.proximal_middle_m : plan.middle_m;
+  bed.device.balloons[0].gauge_Pa = 0;
   bed.step();
-  const double folded_m3 = bed.state.balloon.volume_m3;
+  const double folded_m3 = bed.state.balloons[0].volume_m3;
   double full_m3 = 0;
   const auto note = [&](const vascular::TreatmentReport& report) {
-    const vascular::BalloonState& s = bed.state.balloon;
+    const vascular::BalloonState& s = bed.state.balloons[0];
     record.burst = record.burst || s.burst;
     record.ST_mV = std::max(record.ST_mV, ST_shift_mV(bed.physiology.ischaemia, bed.blood.ischaemia));
-    record.slip_m = s.seat_m - bed.device.shaft.middle_m;
-    if (s.pressure_Pa > 3.9 * atm && record.waist_at_4_atm == 1) record.waist_at_4_atm = report.balloon.waist;
-    if (report.balloon.waist > 0.9 && record.waist_gave_Pa == 0 && s.pressure_Pa > 1.5 * atm)
+    record.slip_m = s.seat_m - bed.device.balloons[0].shaft.middle_m;
+    if (s.pressure_Pa > 3.9 * atm && record.waist_at_4_atm == 1) record.waist_at_4_atm = report.balloons[0].waist;
+    if (report.balloons[0].waist > 0.9 && record.waist_gave_Pa == 0 && s.pressure_Pa > 1.5 * atm)
       record.waist_gave_Pa = s.pressure_Pa;
     if (s.pressure_Pa < record.pressure_Pa) return;
-    record.pressure_Pa = s.pressure_Pa, record.gauge_Pa = bed.device.gauge_Pa, full_m3 = s.volume_m3;
+    record.pressure_Pa = s.pressure_Pa, record.gauge_Pa = bed.device.balloons[0].gauge_Pa, full_m3 = s.volume_m3;
     double sum = 0, most = 0;
     int count = 0;
     for (int i = 0; i < vascular::balloon_spheres; ++i)
@@ -199,17 +199,17 @@ InflationRecord inflate(Bedside& bed, const Plan& plan, int balloon, double gaug
     record.diameter_m = sum / count, record.largest_over_reference = most / plan.reference_m;
   };
   for (double t = 0; t < gauge_Pa / pump_Pa_s + hold_s; t += 1e-3) {
-    bed.device.gauge_Pa = std::min(gauge_Pa, pump_Pa_s * t);
+    bed.device.balloons[0].gauge_Pa = std::min(gauge_Pa, pump_Pa_s * t);
     note(bed.step());
   }
-  bed.device.gauge_Pa = -atm;
+  bed.device.balloons[0].gauge_Pa = -atm;
   for (double t = 0; t < vacuum_s; t += 1e-3) {
     bed.step();
     record.ST_mV = std::max(record.ST_mV, ST_shift_mV(bed.physiology.ischaemia, bed.blood.ischaemia));
-    if (record.deflated_s == 0 && bed.state.balloon.volume_m3 - folded_m3 < 0.1 * (full_m3 - folded_m3))
+    if (record.deflated_s == 0 && bed.state.balloons[0].volume_m3 - folded_m3 < 0.1 * (full_m3 - folded_m3))
       record.deflated_s = t;
   }
-  bed.device.gauge_Pa = 0;
+  bed.device.balloons[0].gauge_Pa = 0;
   return record;
 }
 
@@ -227,7 +227,7 @@ std::vector<InflationRecord> treat(Bedside& bed, const Plan& plan, double hold_s
   std::vector<InflationRecord> records;
   for (const PlannedInflation& i : inflations_of(plan))
     records.push_back(inflate(bed, plan, i.balloon, i.gauge_Pa, hold_s));
-  bed.device.balloon = -1;
+  bed.device.balloons[0].balloon = -1;
   for (int i = 0; i < 20; ++i) bed.step();
   return records;
 }

@@ -72,9 +72,10 @@ Row treatment_row(bool quick) {
   std::vector<double> occupied, times;
   const app::Plan& plan = t.plans.front();
   vascular::TreatmentInputs device;
-  device.branch = plan.branch, device.shaft.middle_m = plan.middle_m, device.balloon = plan.stent;
+  device.balloons[0].branch = plan.branch, device.balloons[0].shaft.middle_m = plan.middle_m,
+  device.balloons[0].balloon = plan.stent;
   for (int n = 0; n < (quick ? 1000 : 10000); ++n) {
-    device.gauge_Pa = std::min(plan.stent_Pa, 2e-3 * atm * n);
+    device.balloons[0].gauge_Pa = std::min(plan.stent_Pa, 2e-3 * atm * n);
     const double start = thread_ms();
     step(t.model, device, 1e-3, state, {physiology.flow, blood, occupied}, scratch);
     times.push_back(thread_ms() - start);

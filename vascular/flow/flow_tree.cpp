@@ -79,6 +79,15 @@ bool same_vessel(const VesselPath& a, const VesselPath& b, double s_m) {
   return i < b.cells.size() && a.cells[i] == b.cells[i];
 }
 
+double common_m(const VesselPath& a, const VesselPath& b) {
+  const std::size_t most = std::min(a.cells.size(), b.cells.size());
+  const auto parts =
+      std::mismatch(a.cells.begin(), a.cells.begin() + static_cast<std::ptrdiff_t>(most), b.cells.begin());
+  const auto same = static_cast<std::size_t>(parts.first - a.cells.begin());
+  if (same == 0) return -1;
+  return same == a.cells.size() && same == b.cells.size() ? 1 : a.s_m[same - 1];
+}
+
 VesselPath::Place VesselPath::at(double s) const {
   const auto above = std::upper_bound(s_m.begin(), s_m.end(), s) - s_m.begin();
   if (above == 0) return {0, 0};

@@ -66,6 +66,8 @@ VesselPath path_along(const FlowTree& tree, int cell);
 std::vector<VesselPath> all_paths(const FlowTree& tree);
 /// Whether two paths share the vessel at arc length s.
 bool same_vessel(const VesselPath& a, const VesselPath& b, double s_m);
+/// How far two paths are one: to the last cell that both have; below 0: not at all. 1 m if they are the same.
+double common_m(const VesselPath& a, const VesselPath& b);
 /// Arc length on the path of a position on a branch (as in Lesion::from_m). Throws std::invalid_argument if the path
 /// does not go there.
 double path_position(const FlowTree& tree, const VesselPath& path, const std::string& branch, double from_branch_m);

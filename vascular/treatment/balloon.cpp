@@ -10,6 +10,7 @@
 #include "core/base/random.h"
 #include "core/base/units.h"
 #include "vascular/treatment/balloon_body.h"
+#include "vascular/treatment/side_by_side.h"
 
 namespace ostium::vascular {
 
@@ -19,10 +20,12 @@ using units::atm;
 
 using units::pi;
 constexpr int n = balloon_spheres;
-constexpr double fold_share = 0.25;      // share of the unfolding pressure needed to start opening the folds
-constexpr double sealed_m = 20e-6;       // a gap this narrow counts as sealed
-constexpr double soft_m = 30e-6;         // distance over which balloon and stent come to bear on the wall
-constexpr double packed_Pa = 100 * atm;  // stiffness of folds that lie one on the other [estimate]
+constexpr double fold_share = 0.25;            // share of the unfolding pressure needed to start opening the folds
+constexpr double sealed_m = 20e-6;             // a gap this narrow counts as sealed
+constexpr double soft_m = 30e-6;               // distance over which balloon and stent come to bear on the wall
+constexpr double packed_Pa = 100 * atm;        // stiffness of folds that lie one on the other [estimate]
+constexpr double flattens_s = 5e-3;            // in which two balloons side by side flatten each other [numerics]
+constexpr double least_filled_Pa = 0.1 * atm;  // with less, a wall flattens it altogether
 constexpr double wedge_ahead_m = 1.5e-3, wedge_gap_m = 30e-6;  // more than a session's wall lags
 
 /// Radius when just unfolded, at the unfolding pressure.
@@ -85,6 +88,7 @@ BalloonState make_balloon_state(const BalloonModel& m) {
   }
   s.largest_m = m.folded_m;
   s.aside_m.assign(n, Eigen::Vector2d::Zero());
+  s.flat_rad.assign(n, 0);
   return s;
 }
 
@@ -111,12 +115,21 @@ Eigen::Vector2d aside_at_m(const BalloonModel& m, const BalloonState& s, double 
   return s.aside_m[i] + (x - i) * (s.aside_m[i + 1] - s.aside_m[i]);
 }
 
-double radius_at(const BalloonModel& m, const BalloonState& s, double s_m) {
+namespace {
+
+/// A value of the spheres at a position of the path, 0 beyond the balloon's ends.
+double value_at(const BalloonModel& m, const BalloonState& s, std::span<const double> of_spheres, double s_m) {
   const double x = (s_m - sphere_position(m, s, 0)) / spacing_m(m);
   if (x < 0 || x > n - 1) return 0;
   const int i = std::min(static_cast<int>(x), n - 2);
-  return s.radius_m[i] + (x - i) * (s.radius_m[i + 1] - s.radius_m[i]);
+  return of_spheres[i] + (x - i) * (of_spheres[i + 1] - of_spheres[i]);
 }
+
+}  // namespace
+
+double radius_at(const BalloonModel& m, const BalloonState& s, double s_m) { return value_at(m, s, s.radius_m, s_m); }
+
+double flat_at_rad(const BalloonModel& m, const BalloonState& s, double s_m) { return value_at(m, s, s.flat_rad, s_m); }
 
 namespace {
 
@@ -144,14 +157,21 @@ CircleAside push_back(const PlaqueModel& plaque, const PlaqueState& wall, const 
           (1 - at.share) * one.back_N_m2 + at.share * two.back_N_m2};
 }
 
+bool is_sleeved(const BalloonInputs& in, int i) { return !in.sleeve.covers.empty() && in.sleeve.covers[i] > 0; }
+double beside_m(const BalloonInputs& in, int i) { return in.beside.radius_m.empty() ? 0 : in.beside.radius_m[i]; }
+/// Radius of the lumen that the sphere opens, with what lies beside it.
+double lumen_m(const BalloonInputs& in, const BalloonState& s, int i) {
+  return beside_m(in, i) > 0 ? in.beside.lumen_m[i] : s.radius_m[i];
+}
+
 /// The wall's pressure on a sphere in the artery, to which it `meets`; keeps what pushes it back to the middle. A
 /// sphere aside presses all round as if it were in the middle: that of one side alone the shaft's own contact bears.
 WallPressure meet_wall(const PlaqueModel& plaque, const PlaqueState& wall, const BalloonInputs& in, double at_m,
                        const BalloonState& s, int i, double meets, BalloonScratch& x) {
-  const bool sleeved = !in.sleeve.covers.empty() && in.sleeve.covers[i] > 0;
-  const double outer = s.radius_m[i] + (sleeved ? in.sleeve.thickness_m : 0);
+  const bool sleeved = is_sleeved(in, i);
+  const double outer = lumen_m(in, s, i) + (sleeved ? in.sleeve.thickness_m : 0);
   const bool in_artery = at_m >= in.path->s_m.front() && at_m <= in.path->s_m.back();
-  if (const double aside_m = s.aside_m[i].norm(); aside_m > 0 && in_artery) {
+  if (const double aside_m = s.aside_m[i].norm(); aside_m > 0 && in_artery && beside_m(in, i) == 0) {
     const double held_m = sleeved ? in.sleeve.inner_m[i] + in.sleeve.thickness_m : 0;
     const CircleAside back = push_back(plaque, wall, *in.path, at_m, outer, aside_m, held_m);
     x.back_N_m[i] = back.back_N_m, x.back_N_m2[i] = back.back_N_m2;
@@ -161,6 +181,24 @@ WallPressure meet_wall(const PlaqueModel& plaque, const PlaqueState& wall, const
   WallPressure w{meets * round.p_Pa, meets * round.slope_Pa_m};
   if (meets < 1) w.slope_Pa_m += (round.p_Pa + in.sleeve.p_Pa[i]) / soft_m;
   return w;
+}
+
+/// What a pressure on the lumen's wall, and its slope, is on the skin of a sphere: less where another lies beside it.
+struct Share {
+  double p = 1, slope = 1;
+};
+Share share_of_wall(const BalloonInputs& in, const BalloonState& s, int i) {
+  if (beside_m(in, i) == 0) return {};
+  const SideBySide both = side_by_side(s.radius_m[i], beside_m(in, i), s.flat_rad[i]);
+  const double share = both.lumen_m / s.radius_m[i] * both.by_a;
+  return {share, share * both.by_a};
+}
+
+/// The two flatten each other as far as the wall draws them together.
+void flatten(double wall_Pa, const BalloonInputs& in, double dt, int i, BalloonState& s) {
+  const double mean_m = (s.radius_m[i] + beside_m(in, i)) / 2, filled_Pa = std::max(s.pressure_Pa, least_filled_Pa);
+  const double rest_rad = beside_m(in, i) > 0 ? flattened_rad(wall_Pa * lumen_m(in, s, i) / (filled_Pa * mean_m)) : 0;
+  s.flat_rad[i] += std::min(1.0, dt / flattens_s) * (rest_rad - s.flat_rad[i]);
 }
 
 /// Thomas' algorithm with two right-hand sides; overwrites everything.
@@ -206,20 +244,25 @@ BalloonReport step(const BalloonModel& m, const PlaqueModel& plaque, const Ballo
   Eigen::Vector2d aside = Eigen::Vector2d::Zero();
   for (int i = 0; i < n; ++i) {
     const double a = s.radius_m[i], share = sphere_share(m, i), at = sphere_position(m, s, i);
-    WallPressure sum = skin(m, share, was_filled, a);
-    const bool sleeved = !in.sleeve.covers.empty() && in.sleeve.covers[i] > 0;
+    WallPressure sum = skin(m, share, was_filled, a), outside;
+    const bool sleeved = is_sleeved(in, i);
+    const Share bears = share_of_wall(in, s, i);
+    const auto add = [&](double p_Pa, double slope_Pa_m) {
+      sum.p_Pa += bears.p * p_Pa, sum.slope_Pa_m += bears.slope * slope_Pa_m, outside.p_Pa += p_Pa;
+    };
     // Inside a sleeve it has no contact; when it starts to touch, skin and struts yield slightly.
-    const double meets = sleeved ? std::clamp(1 + (a - in.sleeve.inner_m[i]) / soft_m, 0.0, 1.0) : 1;
-    if (sleeved && meets > 0) sum.p_Pa += meets * in.sleeve.p_Pa[i], sum.slope_Pa_m += meets * in.sleeve.slope_Pa_m[i];
+    const double meets = sleeved ? std::clamp(1 + (lumen_m(in, s, i) - in.sleeve.inner_m[i]) / soft_m, 0.0, 1.0) : 1;
+    if (sleeved && meets > 0) add(meets * in.sleeve.p_Pa[i], meets * in.sleeve.slope_Pa_m[i]);
     if (in.path) {
       const WallPressure w = meet_wall(plaque, wall, in, at, s, i, meets, x);
-      sum.p_Pa += w.p_Pa, sum.slope_Pa_m += w.slope_Pa_m;
+      add(w.p_Pa, w.slope_Pa_m);
       report.touches = report.touches || w.p_Pa > 0;
       const double before = s.radius_m[std::max(i - 1, 0)], after = s.radius_m[std::min(i + 1, n - 1)];
       along += w.p_Pa * 2 * pi * a * (after - before) / 2;
       pressed += w.p_Pa * 2 * pi * a * ds;
       if (const double off = s.aside_m[i].norm(); off > 0) aside -= x.back_N_m[i] * ds / off * s.aside_m[i];
     }
+    flatten(outside.p_Pa, in, dt, i, s);
     const double N = std::max(0.0, s.pressure_Pa) * a / 2 / (ds * ds), c = m.viscous_Pa_s_m / dt;
     x.below[i] = i > 0 ? -N : 0, x.above[i] = i + 1 < n ? -N : 0;
     x.middle[i] = c + sum.slope_Pa_m - x.below[i] - x.above[i];
@@ -257,7 +300,7 @@ BalloonReport step(const BalloonModel& m, const PlaqueModel& plaque, const Ballo
   s.inflated_s = gauge > atm ? s.inflated_s + dt : 0;
   if (in.path) {
     slide(m, in.shaft, along, pressed, dt, s);
-    if (!in.shaft.aside_m.empty()) lie_aside(m, in.shaft, dt, x, s);
+    if (!in.shaft.aside_m.empty()) lie_aside(m, in.shaft, in.beside, dt, x, s);
     report.axial_N = along, report.pressed_N = pressed, report.aside_N = aside.norm();
     double narrowest_gap = 1;
     for (std::size_t k = 0; k < in.path->cells.size(); ++k) {
@@ -265,9 +308,9 @@ BalloonReport step(const BalloonModel& m, const PlaqueModel& plaque, const Ballo
       if (a <= 0) continue;
       const int i =
           std::clamp(static_cast<int>(std::lround((in.path->s_m[k] - sphere_position(m, s, 0)) / ds)), 0, n - 1);
-      const bool sleeved = !in.sleeve.covers.empty() && in.sleeve.covers[i] > 0;
-      const double outer = a + (sleeved ? in.sleeve.thickness_m : 0);
-      push_wall(plaque, in.path->cells[k], outer, wall);
+      const double outer =
+          side_by_side(a, beside_m(in, i), s.flat_rad[i]).lumen_m + (is_sleeved(in, i) ? in.sleeve.thickness_m : 0);
+      if (outer > wall.radius_m[in.path->cells[k]]) push_wall(plaque, in.path->cells[k], outer, wall);
       narrowest_gap = std::min(narrowest_gap, wall.radius_m[in.path->cells[k]] - outer);
     }
     report.seals = narrowest_gap < sealed_m;

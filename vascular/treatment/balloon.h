@@ -52,6 +52,7 @@ struct BalloonState {
   double seat_m = 0;                     ///< middle of its markers along the path
   bool held = false;                     ///< pressed by the wall, which keeps it there; else it goes with its shaft
   std::vector<Eigen::Vector2d> aside_m;  ///< (balloon_spheres) from the artery's middle line, along side and up
+  std::vector<double> flat_rad;          ///< (balloon_spheres) beta, where another lies beside it (side_by_side.h)
   /// To where its proximal and distal bond pull the shaft, in the same way, and how stiffly: as bond and wall are.
   /// Sessions do not use it yet (device_constraints.cpp says why).
   std::array<Eigen::Vector2d, 2> bonds_m = {Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()};
@@ -69,6 +70,7 @@ constexpr auto fields(const BalloonState*) {
                     core::field("seat_m", &S::seat_m),
                     core::field("held", &S::held),
                     core::field("aside_m", &S::aside_m),
+                    core::field("flat_rad", &S::flat_rad),
                     core::field("bonds_m", &S::bonds_m),
                     core::field("bonds_N_m", &S::bonds_N_m),
                     core::field("largest_m", &S::largest_m),
@@ -93,11 +95,19 @@ struct Sleeve {
   std::span<const double> inner_m;           ///< its inner radius, below which there is no contact
 };
 
+/// Another balloon in the same lumen. Empty, or one value per sphere.
+struct Beside {
+  std::span<const double> radius_m;          ///< of the other one at the sphere's place; 0: it is not there
+  std::span<const Eigen::Vector2d> aside_m;  ///< and how far it lies aside
+  std::span<const double> lumen_m;           ///< of both (SideBySide)
+};
+
 struct BalloonInputs {
   const VesselPath* path = nullptr;  ///< null: in free space or in a catheter
   ShaftPlace shaft = {};
   double gauge_Pa = 0;  ///< of the inflation device; -1 atm: vacuum
   Sleeve sleeve = {};
+  Beside beside = {};
 };
 
 struct BalloonReport {
@@ -132,8 +142,9 @@ double spacing_m(const BalloonModel& model);
 BalloonReport step(const BalloonModel& model, const PlaqueModel& plaque, const BalloonInputs& inputs, double dt_s,
                    BalloonState& state, PlaqueState& wall, BalloonScratch& scratch);
 
-/// Radius at a position of the path, 0 beyond the balloon's ends.
+/// Radius at a position of the path, 0 beyond the balloon's ends; how flat another one there makes it.
 double radius_at(const BalloonModel& model, const BalloonState& state, double s_m);
+double flat_at_rad(const BalloonModel& model, const BalloonState& state, double s_m);
 /// How far its middle line lies aside at a position of the path; as at its ends beyond them.
 Eigen::Vector2d aside_at_m(const BalloonModel& model, const BalloonState& state, double s_m);
 /// Stiffness of its skin, E t, which the chart gives: a tube that grows by dr under dp has r^2 dp / dr.

@@ -6,6 +6,7 @@
 
 #include "core/base/units.h"
 #include "vascular/treatment/pressurised_tube.h"
+#include "vascular/treatment/side_by_side.h"
 
 namespace ostium::vascular {
 
@@ -16,6 +17,8 @@ namespace {
 
 constexpr double settles_N_s_m2 = 1e3;  // c: with a soft wall's 5e5 N/m2 it has settled after 2 ms [numerics]
 constexpr double skin_N_m2 = 1e5;       // of the shaft against the skin round it [numerics]
+constexpr double beside_N_m2 = 5e5;     // with which what lies beside it holds it in its place [numerics]
+constexpr double least_apart_m = 1e-6;  // from which on it is known on which side that is
 constexpr double most_N = 3;            // a shaft kinks at higher force [estimate]
 
 /// Gauss and Legendre, on [0, 1].
@@ -57,6 +60,15 @@ ShaftSpring shaft_spring(const BalloonModel& m, const ShaftPlace& shaft, const B
   return {skin_N_m2, shaft.aside_m[i] + loose_m / far_m * off};
 }
 
+/// Where its middle lies if another is beside it: away from that, so that the two lie round the lumen's middle.
+Vector2d place_beside_m(const Beside& beside, const ShaftPlace& shaft, const BalloonState& s, int i) {
+  const double a = s.radius_m[i], b = beside.radius_m[i];
+  Vector2d from = s.aside_m[i] - beside.aside_m[i];
+  if (from.norm() < least_apart_m) from = shaft.aside_m[i] - beside.aside_m[i];
+  if (from.norm() < least_apart_m) from = Vector2d::UnitX();
+  return b / (a + b) * side_by_side(a, b, s.flat_rad[i]).apart_m * from.normalized();
+}
+
 }  // namespace
 
 CircleAside press_circle(const WallLaw& wall, double from_m, double a, double y) {
@@ -74,7 +86,8 @@ CircleAside press_circle(const WallLaw& wall, double from_m, double a, double y)
   return out;
 }
 
-void lie_aside(const BalloonModel& m, const ShaftPlace& shaft, double dt, BalloonScratch& x, BalloonState& s) {
+void lie_aside(const BalloonModel& m, const ShaftPlace& shaft, const Beside& beside, double dt, BalloonScratch& x,
+               BalloonState& s) {
   const double ds = spacing_m(m);
   x.diagonal.assign(balloon_spheres, settles_N_s_m2 / dt), x.next.assign(balloon_spheres, 0),
       x.second.assign(balloon_spheres, 0);
@@ -88,6 +101,8 @@ void lie_aside(const BalloonModel& m, const ShaftPlace& shaft, double dt, Balloo
     if (y > 0) x.load[i] += (stiff - x.back_N_m[i] / y) * s.aside_m[i];
     const ShaftSpring spring = shaft_spring(m, shaft, s, i);
     x.diagonal[i] += spring.N_m2, x.load[i] += spring.N_m2 * spring.to_m;
+    if (beside.radius_m.empty() || beside.radius_m[i] <= 0) continue;
+    x.diagonal[i] += beside_N_m2, x.load[i] += beside_N_m2 * place_beside_m(beside, shaft, s, i);
   }
   for (int j = 1; j + 1 < balloon_spheres; ++j) {
     const PressurisedTube tube = pressurised_tube(s.radius_m[j], s.pressure_Pa, skin_N_m(m));

@@ -22,8 +22,8 @@ struct CircleAside {
 CircleAside press_circle(const WallLaw& wall, double from_m, double a_m, double aside_m);
 
 /// One step of any length; uses `back_N_m` and `back_N_m2` of the balloon's step. `shaft.aside_m` is not empty.
-void lie_aside(const BalloonModel& model, const ShaftPlace& shaft, double dt_s, BalloonScratch& scratch,
-               BalloonState& state);
+void lie_aside(const BalloonModel& model, const ShaftPlace& shaft, const Beside& beside, double dt_s,
+               BalloonScratch& scratch, BalloonState& state);
 
 /// `along_N` and `pressed_N` as in BalloonReport.
 void slide(const BalloonModel& model, const ShaftPlace& shaft, double along_N, double pressed_N, double dt_s,

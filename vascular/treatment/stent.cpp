@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "core/base/units.h"
+#include "vascular/treatment/side_by_side.h"
 
 namespace ostium::vascular {
 
@@ -86,6 +87,7 @@ StentState make_stent_state(const StentModel& m) {
   StentState s;
   s.radius_m.assign(m.rings, m.crimped_m), s.rest_m = s.peak_m = s.radius_m;
   s.link_m.assign(m.rings - 1, m.pitch_m());
+  s.narrow.assign(m.rings, 1);
   for (int k = 0; k < m.rings; ++k)
     for (int j = 0; j < 2 * m.crowns; ++j)
       s.along_m.push_back((k - (m.rings - 1) / 2.0) * m.pitch_m() + (j % 2 ? 0.5 : -0.5) * m.height_m);
@@ -112,15 +114,35 @@ double narrowest_m(const StentModel& m, const StentState& s, double from_m, doub
   return least;
 }
 
-void add_sleeve(const StentModel& m, const StentState& s, const BalloonModel& balloon,
-                const BalloonState& balloon_state, StentScratch& x, Sleeve& sleeve) {
+double area_of_ring_m2(const StentState& s, int ring) {
+  // Perimeter 2 pi r = 2 pi n + 2 d and narrow / wide = 2 n / (2 n + d) give n and d.
+  const auto k = static_cast<std::size_t>(ring);
+  const double d_by_n = 2 * (1 / s.narrow[k] - 1), n = s.radius_m[k] / (1 + d_by_n / pi);
+  return (pi + 2 * d_by_n) * n * n;
+}
+
+OpenedTo opened_to(std::span<const BalloonInside> inside, double s_m) {
+  OpenedTo out;
+  for (const BalloonInside& own : inside) {
+    if (s_m > own.to_m) continue;
+    const double a = radius_at(*own.model, *own.state, s_m), b = out.radius_m;
+    if (a <= 0) continue;
+    const SideBySide both = side_by_side(a, b, flat_at_rad(*own.model, *own.state, s_m));
+    out = {both.lumen_m, both.narrow};
+  }
+  return out;
+}
+
+void add_sleeve(const StentModel& m, const StentState& s, const BalloonInside& balloon, std::span<const double> lumen_m,
+                StentScratch& x, Sleeve& sleeve) {
   if (sleeve.covers.empty())
     for (auto* v : {&x.p_Pa, &x.slope_Pa_m, &x.covers, &x.inner_m}) v->assign(balloon_spheres, 0);
   for (int b = 0; b < balloon_spheres; ++b) {
     int ring;
     double share;
-    if (!between(m, s, sphere_position(balloon, balloon_state, b), ring, share)) continue;
-    const double a = balloon_state.radius_m[b];
+    const double at_m = sphere_position(*balloon.model, *balloon.state, b);
+    if (at_m > balloon.to_m || !between(m, s, at_m, ring, share)) continue;
+    const double a = lumen_m[b];
     const WallPressure one = hoop(m, s.rest_m[ring], a);
     const WallPressure two = share > 0 ? hoop(m, s.rest_m[ring + 1], a) : one;
     const double inner = share > 0 ? (1 - share) * s.radius_m[ring] + share * s.radius_m[ring + 1] : s.radius_m[ring];
@@ -140,7 +162,8 @@ void move_rings(const StentModel& m, const PlaqueModel& plaque, const StentInput
   bool any_on = false;
   for (int k = 0; k < m.rings; ++k) {
     const double at = ring_middle(m, s, k);
-    const double a = in.balloon ? radius_at(*in.balloon, *in.balloon_state, at) : 0;
+    const OpenedTo opened = opened_to(in.inside, at);
+    const double a = opened.radius_m;
     double& r = s.radius_m[k];
     const WallPressure own = hoop(m, s.rest_m[k], r);
     WallPressure outside;
@@ -153,6 +176,9 @@ void move_rings(const StentModel& m, const PlaqueModel& plaque, const StentInput
     const double alone = r - (own.p_Pa + outside.p_Pa) / (c + own.slope_Pa_m + outside.slope_Pa_m);
     any_on = any_on || a >= alone;
     r = std::max(alone, a);
+    // It takes the shape of what opens it; one round balloon in it makes it rounder.
+    if (r == a) s.narrow[k] = opened.narrow;
+    if (a > 0 && opened.narrow == 1) s.narrow[k] = std::max(s.narrow[k], drawn_round(a, r));
     s.rest_m[k] = std::clamp(s.rest_m[k], r / (1 + m.yield), r / (1 - m.yield));
     s.peak_m[k] = std::max(s.peak_m[k], r);
     mean += r / m.rings;
@@ -210,7 +236,7 @@ void step(const StentModel& m, const PlaqueModel& plaque, const StentInputs& in,
           PlaqueState& wall) {
   if (s.where == StentState::lost) return;
   if (s.where == StentState::on_balloon) {
-    if (in.balloon_state) s.middle_m = in.balloon_state->seat_m;
+    if (in.carried_by) s.middle_m = in.carried_by->seat_m;
     // Pulled against an edge it slides on its balloon, and comes off once half of it has.
     if (const double over = std::fabs(in.drag_N) - m.held_N; over > 0 && s.radius_m[m.rings / 2] < 1.2 * m.crimped_m)
       s.shift_m += std::copysign(over * dt * 5e-3, in.drag_N);

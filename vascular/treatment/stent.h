@@ -7,9 +7,10 @@
 /// ends where both balance. Struts keep their length l: with crowns half a pitch apart along the circumference, a
 /// ring's length is
 ///   h = sqrt(l^2 - chord^2)
-/// and shrinks as it opens. Links join crowns that point the same way and so keep the rings apart: a stent foreshortens
-/// at its ends. Points are positioned along the vessel by relaxing struts and links as springs; compressed links stay
-/// compressed.
+/// and shrinks as it opens. Two balloons side by side leave a ring that is not round; its radius is that of a circle of
+/// its length, and one balloon that fills it makes it round again (side_by_side.h). Links join crowns that point the
+/// same way and so keep the rings apart: a stent foreshortens at its ends. Points are positioned along the vessel by
+/// relaxing struts and links as springs; compressed links stay compressed.
 #include "vascular/treatment/balloon.h"
 #include "vascular/treatment/stent_design.h"
 
@@ -55,21 +56,34 @@ struct StentState {
   std::vector<double> link_m;    ///< (#rings - 1) length of the links
   std::vector<StentTie> ties;    ///< (#points)
   std::vector<double> peak_m;    ///< (#rings) largest radius so far
+  std::vector<double> narrow;    ///< (#rings) narrow over wide diameter; 1: round
 };
 constexpr auto fields(const StentState*) {
   using S = StentState;
-  return std::tuple{core::field("where", &S::where),       core::field("branch", &S::branch),
-                    core::field("middle_m", &S::middle_m), core::field("shift_m", &S::shift_m),
-                    core::field("radius_m", &S::radius_m), core::field("rest_m", &S::rest_m),
-                    core::field("along_m", &S::along_m),   core::field("link_m", &S::link_m),
-                    core::field("ties", &S::ties),         core::field("peak_m", &S::peak_m)};
+  return std::tuple{
+      core::field("where", &S::where),     core::field("branch", &S::branch),     core::field("middle_m", &S::middle_m),
+      core::field("shift_m", &S::shift_m), core::field("radius_m", &S::radius_m), core::field("rest_m", &S::rest_m),
+      core::field("along_m", &S::along_m), core::field("link_m", &S::link_m),     core::field("ties", &S::ties),
+      core::field("peak_m", &S::peak_m),   core::field("narrow", &S::narrow)};
 }
 StentState make_stent_state(const StentModel& model);
 
+/// A balloon in the lumen of a stent, and how far along their common path.
+struct BalloonInside {
+  const BalloonModel* model = nullptr;
+  const BalloonState* state = nullptr;
+  double to_m = 1;
+};
+/// What balloons open a lumen to at a place: the radius of its perimeter, and narrow over wide; 0: none is there.
+struct OpenedTo {
+  double radius_m = 0, narrow = 1;
+};
+OpenedTo opened_to(std::span<const BalloonInside> inside, double s_m);
+
 struct StentInputs {
   const VesselPath* path = nullptr;
-  const BalloonModel* balloon = nullptr;  ///< inside it, or null
-  const BalloonState* balloon_state = nullptr;
+  std::span<const BalloonInside> inside = {};  ///< at most two
+  const BalloonState* carried_by = nullptr;    ///< the balloon that it is crimped on
   double drag_N = 0;  ///< Force of an edge that catches the crimped stent, along its balloon; negative: proximally.
   double edge_m = -1e9,
          edge_N = 0;  ///< Force of a guide's or balloon's edge that pushes the deployed stent distally, from edge_m.
@@ -79,10 +93,10 @@ struct StentScratch {
   std::vector<double> p_Pa, slope_Pa_m, covers, inner_m;  ///< per sphere of the balloon
 };
 
-/// Adds a stent's resistance to a balloon's sleeve; call before the balloon's step. `sleeve` points into `scratch`;
-/// empty at first.
-void add_sleeve(const StentModel& model, const StentState& state, const BalloonModel& balloon,
-                const BalloonState& balloon_state, StentScratch& scratch, Sleeve& sleeve);
+/// Adds a stent's resistance to the sleeve of a balloon in it; call before the balloon's step. `lumen_m`: to which each
+/// sphere opens it. `sleeve` points into `scratch`; empty at first.
+void add_sleeve(const StentModel& model, const StentState& state, const BalloonInside& balloon,
+                std::span<const double> lumen_m, StentScratch& scratch, Sleeve& sleeve);
 
 /// After the balloon's step: rings follow the balloon or spring back, points are relaxed, the wall is held open.
 void step(const StentModel& model, const PlaqueModel& plaque, const StentInputs& inputs, double dt_s, StentState& state,
@@ -90,6 +104,8 @@ void step(const StentModel& model, const PlaqueModel& plaque, const StentInputs&
 
 /// Inner radius at a position of the path; negative where there is no stent.
 double inner_radius_at(const StentModel& model, const StentState& state, double s_m);
+/// Area of a ring's lumen, m2: two half circles and what lies straight between them.
+double area_of_ring_m2(const StentState& state, int ring);
 /// Smallest radius between two positions.
 double narrowest_m(const StentModel& model, const StentState& state, double from_m, double to_m);
 

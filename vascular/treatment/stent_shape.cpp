@@ -11,11 +11,25 @@ namespace ostium::vascular {
 
 double angle_of(const StentModel& m, int j) { return units::pi * j / m.crowns; }
 
+namespace {
+
+/// How much nearer to its middle than a round ring of its length a ring lies at an angle: an ellipse, narrow across.
+double flat_m(const StentState& s, int ring, double angle) {
+  const double r = s.radius_m[ring], c = std::cos(angle), sn = std::sin(angle) / s.narrow[ring];
+  const double wide = r * 2 / (1 + s.narrow[ring]);
+  return std::max(0.0, r - wide / std::sqrt(c * c + sn * sn));
+}
+
+}  // namespace
+
 double gap_of(const StentModel& m, const StentState& s, const VesselPath& path, const PlaqueState& wall, int point) {
   const int around = 2 * m.crowns, ring = point / around;
-  const double at = s.middle_m + s.shift_m + s.along_m[point];
+  const double at = s.middle_m + s.shift_m + s.along_m[point], angle = angle_of(m, point % around);
   const double room = path.value(wall.radius_m, at) - s.radius_m[ring] - m.strut_m;
-  return std::max(0.0, room) * (1 - std::cos(angle_of(m, point % around)));
+  if (room <= 0) return 0;
+  // A wall that is hardly longer than the ring bulges only as far as an arc on a chord.
+  const double flat = s.narrow[ring] < 1 ? std::min(flat_m(s, ring, angle), std::sqrt(room * s.radius_m[ring])) : 0;
+  return room * (1 - std::cos(angle)) + flat;
 }
 
 std::vector<std::pair<int, int>> struts_of(const StentModel& m) {

@@ -5,6 +5,7 @@
 
 #include "core/base/random.h"
 #include "core/base/units.h"
+#include "vascular/treatment/devices.h"
 
 namespace ostium::vascular {
 
@@ -204,116 +205,6 @@ void set_radii(const TreatmentModel& model, const FlowTree& tree, const Treatmen
     }
 }
 
-const BalloonModel* balloon_of(const TreatmentModel& model, const TreatmentInputs& in) {
-  return in.balloon >= 0 ? &model.balloons[in.balloon] : nullptr;
-}
-const VesselPath* path_of(const TreatmentModel& model, const TreatmentInputs& in) {
-  return in.branch >= 0 ? &model.paths[in.branch] : nullptr;
-}
-/// The stent that is, or was, crimped on the balloon in use; -1 if none.
-int own_stent(const TreatmentModel& model, const TreatmentInputs& in) {
-  return in.balloon >= 0 ? model.stent_on[in.balloon] : -1;
-}
-
-/// Whether a stent lies in the wall of the balloon's vessel.
-bool is_beside(const TreatmentModel& model, const TreatmentInputs& in, const StentState& stent) {
-  const VesselPath* path = path_of(model, in);
-  return path && stent.where == StentState::deployed && stent.branch >= 0 &&
-         same_vessel(model.paths[static_cast<std::size_t>(stent.branch)], *path, stent.middle_m);
-}
-
-void change_balloon(const TreatmentModel& model, const TreatmentInputs& in, TreatmentState& s) {
-  if (s.balloon_in != in.balloon) {
-    s.balloon_in = in.balloon;
-    if (in.balloon >= 0) s.balloon = make_balloon_state(model.balloons[in.balloon]);
-  }
-  if (in.balloon < 0) s.balloon.held = false;
-  follow_shaft(in.shaft.middle_m, s.balloon);
-  // A crimped stent moves with its balloon; set before the balloon's step.
-  if (const int own = own_stent(model, in); own >= 0 && s.stents[own].where == StentState::on_balloon)
-    s.stents[own].branch = in.branch, s.stents[own].middle_m = s.balloon.seat_m;
-}
-
-/// Whether an unopened stent blocks the balloon's position.
-bool is_blocked(const TreatmentModel& model, const TreatmentInputs& in, const TreatmentState& s) {
-  const BalloonModel* balloon = balloon_of(model, in);
-  if (!balloon || !path_of(model, in)) return false;
-  const double end = s.balloon.seat_m + balloon->length_m / 2 + balloon->shoulder_m;
-  for (std::size_t i = 0; i < s.stents.size(); ++i)
-    if (is_beside(model, in, s.stents[i]) && narrowest_m(model.stents[i], s.stents[i], -1, end) < balloon->folded_m)
-      return true;
-  return false;
-}
-
-/// Releases the contents of a burst balloon into the vessel.
-void spill(const VesselPath& path, double middle_m, double spilt_m3, double iodine_kg_m3, std::size_t cells,
-           ContrastState& contrast) {
-  const auto cell = static_cast<std::size_t>(path.cells[path.at(middle_m).index]);
-  const double kg = spilt_m3 * iodine_kg_m3;
-  for (int k = 0; k < layers; ++k) contrast.sheath_kg[k * cells + cell] += kg / layers;
-  contrast.injected_kg += kg, contrast.injected_m3 += spilt_m3;
-}
-
-BalloonReport inflate(const TreatmentModel& model, const TreatmentInputs& in, double dt, TreatmentState& s,
-                      const TreatedVessels& vessels, TreatmentScratch& x) {
-  const BalloonModel& balloon = *balloon_of(model, in);
-  const VesselPath* path = path_of(model, in);
-  const int own = own_stent(model, in);
-  const bool whole = !s.balloon.burst;
-  // Stents in the wall, and the one on this balloon; others are not in the vessel.
-  Sleeve sleeve;
-  for (std::size_t i = 0; i < s.stents.size(); ++i)
-    if (is_beside(model, in, s.stents[i]) ||
-        (static_cast<int>(i) == own && s.stents[i].where == StentState::on_balloon))
-      add_sleeve(model.stents[i], s.stents[i], balloon, s.balloon, x.stent, sleeve);
-  const BalloonReport report =
-      step(balloon, model.plaque, {path, in.shaft, in.gauge_Pa, sleeve}, dt, s.balloon, s.wall, x.balloon);
-  if (report.touches || report.spilt_m3 > 0)
-    judge_stretch(model.injury, model.plaque, s.wall, balloon.length_m, whole && s.balloon.burst,
-                  vessels.physiology.heart.time_s, s.injury);
-  if (report.spilt_m3 > 0 && path)
-    spill(*path, s.balloon.seat_m, report.spilt_m3, balloon.iodine_kg_m3, vessels.flow.tree.cells.size(),
-          vessels.physiology.contrast);
-  return report;
-}
-
-/// Steps stents in the wall and the one on the balloon.
-void step_stents(const TreatmentModel& model, const TreatmentInputs& in, bool blocked, double dt, TreatmentState& s) {
-  const BalloonModel* balloon = balloon_of(model, in);
-  const int own = own_stent(model, in);
-  for (std::size_t i = 0; i < s.stents.size(); ++i) {
-    StentState& stent = s.stents[i];
-    const bool mine = static_cast<int>(i) == own && balloon,
-               within = balloon && !blocked && (mine || is_beside(model, in, stent));
-    if (stent.where == StentState::lost || (stent.where == StentState::on_balloon && !mine)) continue;
-    step(model.stents[i], model.plaque,
-         {.path = stent.branch >= 0 ? &model.paths[static_cast<std::size_t>(stent.branch)] : nullptr,
-          .balloon = within ? balloon : nullptr,
-          .balloon_state = &s.balloon,
-          .drag_N = mine ? in.drag_N : 0,
-          .edge_m = in.edge_m,
-          .edge_N = is_beside(model, in, stent) ? in.edge_N : 0},
-         dt, stent, s.wall);
-  }
-}
-
-/// Sets what occupies the lumen besides blood: shafts and the balloon.
-void fill_lumen(const TreatmentModel& model, const TreatmentInputs& in, bool blocked, const TreatmentState& s,
-                const TreatedVessels& vessels) {
-  std::vector<double>& occupied_m = vessels.occupied_m;
-  if (in.shaft_m.empty())
-    occupied_m.assign(vessels.flow.tree.cells.size(), 0);
-  else
-    occupied_m.assign(in.shaft_m.begin(), in.shaft_m.end());
-  const BalloonModel* balloon = balloon_of(model, in);
-  const VesselPath* path = path_of(model, in);
-  if (!balloon || !path || blocked) return;
-  for (std::size_t k = 0; k < path->cells.size(); ++k) {
-    double& occupied = occupied_m[path->cells[k]];
-    occupied = std::max(occupied, radius_at(*balloon, s.balloon, path->s_m[k]));
-  }
-}
-
 /// Thrombus beside what lies in the lumen, which it then fills, too.
 void clot(const TreatmentModel& model, const TreatmentInputs& in, double dt, TreatmentState& s,
           const TreatedVessels& vessels) {
@@ -328,8 +219,11 @@ void clot(const TreatmentModel& model, const TreatmentInputs& in, double dt, Tre
 TreatmentState make_state(const TreatmentModel& model, const FlowTree& tree) {
   TreatmentState s;
   s.wall = make_plaque_state(model.plaque);
-  s.balloon.radius_m.assign(balloon_spheres, 0);
-  s.balloon.aside_m.assign(balloon_spheres, Eigen::Vector2d::Zero());
+  for (BalloonState& balloon : s.balloons) {
+    balloon.radius_m.assign(balloon_spheres, 0), balloon.flat_rad = balloon.radius_m;
+    balloon.aside_m.assign(balloon_spheres, Eigen::Vector2d::Zero());
+  }
+  s.balloon_in.fill(-1);
   for (const StentModel& stent : model.stents) s.stents.push_back(make_stent_state(stent));
   s.spasm.assign(tree.branches.size(), 0);
   s.drugs = make_state(model.drugs);
@@ -347,12 +241,16 @@ TreatmentReport step(const TreatmentModel& model, const TreatmentInputs& in, dou
     for (double& lost : vessels.physiology.flow.no_reflow) lost *= std::exp(-dt * opens / muscle_opens_s);
   for (double& spasm : s.spasm) spasm *= std::exp(-dt * s.drugs.nitrate / model.drugs.spasm_yields_s);
   std::copy(s.wall.rest_m.begin(), s.wall.rest_m.end(), s.wall.radius_m.begin());
-  change_balloon(model, in, s);
-  report.blocked = is_blocked(model, in, s);
   const int injured = s.injury.count;
-  if (report.blocked) s.balloon.held = false;
-  if (in.balloon >= 0 && !report.blocked) report.balloon = inflate(model, in, dt, s, vessels, x);
-  step_stents(model, in, report.blocked, dt, s);
+  for (int k = 0; k < most_balloons; ++k) {
+    change_balloon(model, in.balloons[k], k, s);
+    report.blocked[k] = is_blocked(model, in.balloons[k], s.balloons[k], s.stents);
+    if (report.blocked[k]) s.balloons[k].held = false;
+  }
+  for (int k = 0; k < most_balloons; ++k)
+    if (in.balloons[k].balloon >= 0 && !report.blocked[k])
+      report.balloons[k] = inflate(model, in, report, k, dt, s, vessels, x);
+  step_stents(model, in, report, dt, s);
   if (in.wire_tip_cell >= 0)
     judge_wire(model.injury, in.wire_tip_cell, s.wall.radius_m[in.wire_tip_cell], in.wire_tip_N, dt,
                vessels.physiology.heart.time_s, s.injury);
@@ -360,7 +258,7 @@ TreatmentReport step(const TreatmentModel& model, const TreatmentInputs& in, dou
     inject(model, jet_of(in, vessels.flow.tree, vessels.occupied_m, vessels.physiology), vessels.flow.tree, dt,
            vessels.physiology.heart.time_s, s);
   report.tore = s.injury.count > injured;
-  fill_lumen(model, in, report.blocked, s, vessels);
+  fill_lumen(model, in, report, s, vessels);
   if (s.injury.count > 0) narrow_by_flaps(model, vessels.occupied_m, s);
   set_radii(model, vessels.flow.tree, s, vessels.physiology);
   close_branches(model, vessels.flow.tree, s, vessels.physiology);

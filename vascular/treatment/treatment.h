@@ -35,12 +35,19 @@ struct Provocation {
   double size = 0;
 };
 
-struct TreatmentInputs {
+inline constexpr int most_balloons = 2;  ///< in the body at a time, each on its own inflation device
+
+/// A balloon in the body.
+struct PlacedBalloon {
   int balloon = -1;  ///< index of the balloon in the vessel; -1: none. A new one starts deflated
   int branch = -1;   ///< branch whose path contains it (from cell_locator.h); -1: not in the coronaries
   ShaftPlace shaft;  ///< of it along that path
   double gauge_Pa = 0;
-  double drag_N = 0;                     ///< StentInputs
+  double drag_N = 0;  ///< StentInputs
+};
+
+struct TreatmentInputs {
+  std::array<PlacedBalloon, most_balloons> balloons = {};
   double edge_m = -1e9, edge_N = 0;      ///< StentInputs
   int wire_tip_cell = -1;                ///< where a wire presses against the wall
   double wire_tip_N = 0;                 ///< and its force
@@ -55,10 +62,10 @@ struct TreatmentInputs {
 
 struct TreatmentState {
   PlaqueState wall;
-  BalloonState balloon;
-  int balloon_in = -1;             ///< index in the model; -1: none yet
-  std::vector<StentState> stents;  ///< (#stents), including crimped ones
-  std::vector<double> spasm;       ///< (#branches) [0, 1): of the diameter; may be set from outside
+  std::array<BalloonState, most_balloons> balloons;
+  std::array<int, most_balloons> balloon_in;  ///< index in the model; -1: none yet
+  std::vector<StentState> stents;             ///< (#stents), including crimped ones
+  std::vector<double> spasm;                  ///< (#branches) [0, 1): of the diameter; may be set from outside
   InjuryState injury;
   ThrombusState thrombus;
   DrugState drugs;
@@ -66,22 +73,29 @@ struct TreatmentState {
 };
 constexpr auto fields(const TreatmentState*) {
   using S = TreatmentState;
-  return std::tuple{
-      core::field("wall", &S::wall),     core::field("balloon", &S::balloon), core::field("balloon_in", &S::balloon_in),
-      core::field("stents", &S::stents), core::field("spasm", &S::spasm),     core::field("injury", &S::injury),
-      core::field("drugs", &S::drugs),   core::field("shocks", &S::shocks),   core::field("thrombus", &S::thrombus)};
+  return std::tuple{core::field("wall", &S::wall),
+                    core::field("balloons", &S::balloons),
+                    core::field("balloon_in", &S::balloon_in),
+                    core::field("stents", &S::stents),
+                    core::field("spasm", &S::spasm),
+                    core::field("injury", &S::injury),
+                    core::field("drugs", &S::drugs),
+                    core::field("shocks", &S::shocks),
+                    core::field("thrombus", &S::thrombus)};
 }
 TreatmentState make_state(const TreatmentModel& model, const FlowTree& tree);
 
 struct TreatmentScratch {
   BalloonScratch balloon;
   StentScratch stent;
+  std::vector<double> beside_m, lumen_m;  ///< (balloon_spheres) of what lies beside the balloon that is stepped
+  std::vector<Eigen::Vector2d> beside_aside_m;
 };
 
 struct TreatmentReport {
-  BalloonReport balloon;
-  bool blocked = false;  ///< an unopened stent is in the balloon's way
-  bool tore = false;     ///< an injury occurred in this step
+  std::array<BalloonReport, most_balloons> balloons;
+  std::array<bool, most_balloons> blocked{};  ///< an unopened stent is in the balloon's way
+  bool tore = false;                          ///< an injury occurred in this step
 };
 
 /// What leaks out of all holes, m3/s.

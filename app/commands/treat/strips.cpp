@@ -44,7 +44,7 @@ void InflationStrips::listen(const Bedside& bed) {
   for (int k = 0; k < 2; ++k) strips[k].samples.push_back(static_cast<float>(leads[static_cast<int>(which[k])]));
   const vascular::Pressures p = pressures(bed.physiology.heart, bed.blood.heart);
   strips[2].samples.push_back(static_cast<float>(p.aorta_Pa / mmHg));
-  strips[3].samples.push_back(static_cast<float>(bed.device.gauge_Pa / atm));
+  strips[3].samples.push_back(static_cast<float>(bed.device.balloons[0].gauge_Pa / atm));
 }
 
 }  // namespace ostium::app

@@ -84,12 +84,12 @@ Inflated inflate_one(TreatmentRoom& room, const Plan& plan, const PlannedInflati
   bool filmed = a.no_pictures || !inflating.grey.empty();
   bed.each_step = [&](const Bedside& now) {
     strips.listen(now);
-    if (!filmed && now.state.balloon.pressure_Pa > 3.5 * atm && std::fabs(now.blood.heart.phase - 0.7) < 0.02) {
+    if (!filmed && now.state.balloons[0].pressure_Pa > 3.5 * atm && std::fabs(now.blood.heart.phase - 0.7) < 0.02) {
       filmed = true;
-      inflating = room.picture(plan, fmt::format("{:.1f} ATM", now.state.balloon.pressure_Pa / atm), false);
+      inflating = room.picture(plan, fmt::format("{:.1f} ATM", now.state.balloons[0].pressure_Pa / atm), false);
     }
   };
-  bed.device.balloon = -1;
+  bed.device.balloons[0].balloon = -1;
   step(room, before_s);
   const InflationRecord record = inflate(bed, plan, balloon, gauge, a.hold_s);
   bed.each_step = nullptr;
@@ -116,7 +116,7 @@ json treat_lesion(TreatmentRoom& room, const Plan& plan, std::vector<fluoro::Pic
     inflations.push_back(to_json(inflated.record));
     kept = inflated.strips;
   }
-  bed.device.balloon = -1;
+  bed.device.balloons[0].balloon = -1;
   show_progress("blood flows as at rest again");
   step(room, 60);
   // Postdilatation moved the wall, so the stent's points are moved with it.

@@ -11,8 +11,8 @@ namespace {
 
 constexpr double outside_m = 1e-3;  // beyond its radius, at which a touched wall is still the artery's
 
-void add_balloon(const CouplingModel& model, const vascular::TreatmentState& treatment, double phase,
-                 const CouplingState& s, CouplingScratch& x) {
+void add_balloon(const CouplingModel& model, const vascular::BalloonState& state, double phase, const CoupledBalloon& s,
+                 CouplingScratch& x) {
   const vascular::BalloonModel& balloon = model.treatment.balloons[static_cast<std::size_t>(s.balloon)];
   const vascular::VesselPath& path = model.treatment.paths[static_cast<std::size_t>(s.branch)];
   const auto centre = [&](std::size_t k) {
@@ -22,10 +22,9 @@ void add_balloon(const CouplingModel& model, const vascular::TreatmentState& tre
   for (std::size_t k = 2; k < path.cells.size(); ++k) {
     if (upstream[path.cells[k]] != path.cells[k - 1] || upstream[path.cells[k - 1]] != path.cells[k - 2])
       continue;  // it turns into a side branch
-    const double radius_m = radius_at(balloon, treatment.balloon, path.s_m[k - 1]);
+    const double radius_m = radius_at(balloon, state, path.s_m[k - 1]);
     if (radius_m < balloon.refolded_m) continue;
-    const vascular::PressurisedTube tube =
-        vascular::pressurised_tube(radius_m, treatment.balloon.pressure_Pa, skin_N_m(balloon));
+    const vascular::PressurisedTube tube = vascular::pressurised_tube(radius_m, state.pressure_Pa, skin_N_m(balloon));
     if (tube.EI_N_m2 > 0)
       x.tubes.push_back({path.cells[k], tube, vascular::curvature_of(centre(k - 2), centre(k - 1), centre(k))});
   }
@@ -34,8 +33,8 @@ void add_balloon(const CouplingModel& model, const vascular::TreatmentState& tre
 }  // namespace
 
 void find_artery_loads(const CouplingModel& model, const core::StepReport& report,
-                       const vascular::TreatmentState& treatment, const vascular::BalloonReport& balloon, double phase,
-                       const CouplingState& s, CouplingScratch& x) {
+                       const vascular::TreatmentState& treatment, const vascular::TreatmentReport& treated,
+                       double phase, const CouplingState& s, CouplingScratch& x) {
   const std::vector<vascular::FlowCell>& cells = model.physiology.flow.tree.cells;
   x.load_P_N.assign(cells.size(), Vector3d::Zero());
   int near = -1;
@@ -47,7 +46,9 @@ void find_artery_loads(const CouplingModel& model, const core::StepReport& repor
     if (found.distance_m < cells[cell].healthy_m + outside_m) x.load_P_N[cell] -= touch.normal_W_N + touch.friction_W_N;
   }
   x.tubes.clear();
-  if (balloon.touches && s.balloon >= 0 && s.branch >= 0) add_balloon(model, treatment, phase, s, x);
+  for (int k = 0; k < vascular::most_balloons; ++k)
+    if (treated.balloons[k].touches && s.balloons[k].balloon >= 0 && s.balloons[k].branch >= 0)
+      add_balloon(model, treatment.balloons[k], phase, s.balloons[k], x);
 }
 
 void give_way(const vascular::ArteryBedModel& model, double dt_s, CouplingScratch& x, vascular::ArteryBedState& bed,

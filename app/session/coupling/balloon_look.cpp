@@ -14,11 +14,23 @@ namespace {
 
 constexpr double catch_angle_rad = 0.35;  // between guide and shaft at which a crimped stent's edge hangs [estimate]
 
-/// In the body, with its tip beyond the guide's or the guide gone.
-int balloon_tool(const CouplingModel& model, const core::State& rods) {
-  for (std::size_t t = 0; t < model.tools.size(); ++t)
-    if (model.balloon_of[t] >= 0 && in_body(model.rods.rods[t], rods.rods[t])) return static_cast<int>(t);
-  return -1;
+/// Balloons that came out leave their places, those that came in take one. Of more than there are places for, the
+/// first.
+void take_places(const CouplingModel& model, const core::State& rods, CouplingState& s) {
+  const auto is_inside = [&](std::size_t t) { return in_body(model.rods.rods[t], rods.rods[t]); };
+  for (CoupledBalloon& own : s.balloons)
+    if (own.tool >= 0 && !is_inside(static_cast<std::size_t>(own.tool))) own.tool = own.balloon = own.branch = -1;
+  const int other = vascular::most_balloons - 1 - s.first;
+  if (s.balloons[s.first].tool < 0 && s.balloons[other].tool >= 0) s.first = other;
+  for (std::size_t t = 0; t < model.tools.size(); ++t) {
+    if (model.balloon_of[t] < 0 || place_of(s, static_cast<int>(t)) >= 0 || !is_inside(t)) continue;
+    for (CoupledBalloon& own : s.balloons)
+      if (own.tool < 0) {
+        own.tool = static_cast<int>(t), own.balloon = model.balloon_of[t], own.branch = -1;
+        own.stent_out = own.caught = false, own.caught_N = 0;
+        break;
+      }
+  }
 }
 
 /// The artery's cell at the tip of the wire that the tool runs over; -1: none.
@@ -47,7 +59,7 @@ std::optional<vascular::Seat> seat_at_ostium(const CouplingModel& model, const v
 
 /// How the shaft and the artery lie at each of the balloon's spheres.
 void find_shaft(const CouplingModel& model, const core::State& rods, int tool, const vascular::LumenMoment& moment,
-                const CouplingScratch& x, CouplingState& s) {
+                const CouplingScratch& x, CoupledBalloon& s) {
   const auto t = static_cast<std::size_t>(tool);
   const vascular::VesselPath& path = model.treatment.paths[static_cast<std::size_t>(s.branch)];
   const vascular::BalloonModel& own = model.treatment.balloons[static_cast<std::size_t>(s.balloon)];
@@ -71,18 +83,14 @@ void find_shaft(const CouplingModel& model, const core::State& rods, int tool, c
   }
 }
 
-}  // namespace
-
-void look_at_balloon(const CouplingModel& model, const core::State& rods, const vascular::TreatmentState& treatment,
-                     const core::StepReport& report, const vascular::LumenMoment& moment, CouplingScratch& x,
-                     CouplingState& s) {
-  const int t = balloon_tool(model, rods);
-  const int was = s.balloon, was_branch = s.branch;
-  s.balloon = t < 0 ? -1 : model.balloon_of[static_cast<std::size_t>(t)];
+void look_at_balloon(const CouplingModel& model, const core::State& rods, const vascular::BalloonState& state,
+                     bool is_new, const core::StepReport& report, const vascular::LumenMoment& moment,
+                     CouplingScratch& x, CoupledBalloon& s) {
+  const int was_branch = s.branch;
   s.branch = -1, s.drag_N = 0;
-  const bool held = s.balloon == was && treatment.balloon.held;
-  if (s.balloon != was) s.stent_out = s.caught = false, s.caught_N = 0;
-  if (t < 0) return;
+  if (s.tool < 0) return;
+  const int t = s.tool;
+  const bool held = !is_new && state.held;
   const core::Rod& rod = model.rods.rods[static_cast<std::size_t>(t)];
   const core::RodState& own = rods.rods[static_cast<std::size_t>(t)];
   const data::Instrument& instrument = model.tools[static_cast<std::size_t>(t)].instrument;
@@ -97,15 +105,14 @@ void look_at_balloon(const CouplingModel& model, const core::State& rods, const 
   // open in a stent go into a side branch, which it would tear.
   const bool aside = !seat || seat->branch != was_branch;
   const bool stays =
-      held ||
-      (s.balloon == was && !is_empty(model.treatment.balloons[static_cast<std::size_t>(s.balloon)], treatment.balloon));
+      held || (!is_new && !is_empty(model.treatment.balloons[static_cast<std::size_t>(s.balloon)], state));
   if (aside && stays && was_branch >= 0 && x.locator.nearest(p_far, near_heart_m).cell >= 0) {
     s.branch = was_branch;
     return;
   }
   if (!seat) return;
   s.branch = seat->branch, s.middle_m = seat->middle_m;
-  if (held || treatment.balloon.pressure_Pa > 0) find_shaft(model, rods, t, moment, x, s);
+  if (held || state.pressure_Pa > 0) find_shaft(model, rods, t, moment, x, s);
   const Vector3d along = (p_far - p_near).normalized();
   for (const core::Touch& touch : report.touches) {
     if (touch.rod != t) continue;
@@ -115,15 +122,15 @@ void look_at_balloon(const CouplingModel& model, const core::State& rods, const 
 }
 
 void look_at_crimped_stent(const CouplingModel& model, const core::State& rods,
-                           const vascular::TreatmentState& treatment, CouplingState& s) {
+                           const vascular::TreatmentState& treatment, int guide_tool, CoupledBalloon& s) {
   s.caught_N = 0;
   const int own = s.balloon < 0 ? -1 : model.treatment.stent_on[static_cast<std::size_t>(s.balloon)];
-  if (own < 0 || s.guide < 0 ||
+  if (own < 0 || guide_tool < 0 ||
       treatment.stents[static_cast<std::size_t>(own)].where != vascular::StentState::on_balloon) {
     s.caught = s.stent_out = false;
     return;
   }
-  const auto t = static_cast<std::size_t>(balloon_tool(model, rods)), g = static_cast<std::size_t>(s.guide);
+  const auto t = static_cast<std::size_t>(s.tool), g = static_cast<std::size_t>(guide_tool);
   const data::Instrument &instrument = model.tools[t].instrument, &guide = model.tools[g].instrument;
   const vascular::StentState& stent = treatment.stents[static_cast<std::size_t>(own)];
   const double out_m = rods.rods[t].inserted_m - rods.rods[g].inserted_m;
@@ -146,6 +153,23 @@ void look_at_crimped_stent(const CouplingModel& model, const core::State& rods,
       s.stent_out = false;  // it has found its way in
   }
   if (s.caught) s.caught_N = std::min(edge_N_m * inside_m, most_caught_N);
+}
+
+}  // namespace
+
+void look_at_balloons(const CouplingModel& model, const core::State& rods, const vascular::TreatmentState& treatment,
+                      const core::StepReport& report, const vascular::LumenMoment& moment, CouplingScratch& x,
+                      CouplingState& s) {
+  std::array<int, vascular::most_balloons> was{};
+  for (std::size_t k = 0; k < was.size(); ++k) was[k] = s.balloons[k].tool;
+  take_places(model, rods, s);
+  for (std::size_t k = 0; k < was.size(); ++k)
+    look_at_balloon(model, rods, treatment.balloons[k], was[k] != s.balloons[k].tool, report, moment, x, s.balloons[k]);
+}
+
+void look_at_crimped_stents(const CouplingModel& model, const core::State& rods,
+                            const vascular::TreatmentState& treatment, CouplingState& s) {
+  for (CoupledBalloon& own : s.balloons) look_at_crimped_stent(model, rods, treatment, s.guide, own);
 }
 
 }  // namespace ostium::app

@@ -26,7 +26,8 @@ constexpr double manifold_m3 = 0.3e-6;  // of the line ahead of the guide
 CouplingState make_coupling(const Vessel& vessel) {
   CouplingState state;
   if (vessel.coronaries) state.shaft_m.assign(vessel.coronaries->tree().cells.size(), 0);
-  state.aside_m.assign(vascular::balloon_spheres, Eigen::Vector2d::Zero()), state.bend_1_m = state.aside_m;
+  for (CoupledBalloon& own : state.balloons)
+    own.aside_m.assign(vascular::balloon_spheres, Eigen::Vector2d::Zero()), own.bend_1_m = own.aside_m;
   return state;
 }
 
@@ -95,6 +96,19 @@ std::vector<int> add_devices(const std::vector<SessionTool>& tools, std::uint64_
   return balloon_of;
 }
 
+int place_of(const CouplingState& state, int tool) {
+  for (int k = 0; k < vascular::most_balloons; ++k)
+    if (tool >= 0 && state.balloons[k].tool == tool) return k;
+  return -1;
+}
+
+BalloonInBody balloon_in_body(const CouplingState& state, const vascular::TreatmentState& treatment,
+                              const DeliveryInputs& inputs, int nth) {
+  const int place = nth == 0 ? state.first : vascular::most_balloons - 1 - state.first;
+  if (state.balloons[place].tool < 0) return {};
+  return {&state.balloons[place], &treatment.balloons[place], nth == 0 ? inputs.gauge_Pa : inputs.second_gauge_Pa};
+}
+
 bool is_empty(const vascular::BalloonModel& model, const vascular::BalloonState& state) {
   double most = 0;
   for (double r : state.radius_m) most = std::max(most, r);
@@ -109,9 +123,9 @@ void look(const CouplingModel& model, const core::State& rods, const vascular::T
   const Vector3d root_shift = vascular::contraction(moment.phase) * motion.root_displacement() +
                               motion.breath_displacement(marks.p_annulus, moment.breath);
   look_at_shafts(model, rods, x, s);
-  look_at_balloon(model, rods, treatment, report, moment, x, s);
+  look_at_balloons(model, rods, treatment, report, moment, x, s);
   look_at_guide(model, rods, report, moment, root_shift, x, s);
-  look_at_crimped_stent(model, rods, treatment, s);
+  look_at_crimped_stents(model, rods, treatment, s);
   look_at_edge(model, rods, treatment, x, s);
   look_at_wires(model, rods, report, root_shift, x, s);
   look_at_valve(model, rods, report, moment, root_shift, s);
@@ -141,11 +155,14 @@ double drawn_m3_s(const CouplingModel& model, const DeliveryInputs& inputs, cons
 vascular::TreatmentInputs treatment_inputs(const CouplingModel& model, const DeliveryInputs& inputs,
                                            const CouplingState& s) {
   vascular::TreatmentInputs out;
-  out.balloon = s.balloon;
-  out.branch = s.branch;
-  out.shaft = {s.middle_m, s.aside_m, s.bend_1_m, std::numeric_limits<double>::infinity()};
-  out.gauge_Pa = inputs.gauge_Pa;
-  out.drag_N = s.drag_N + s.caught_N;
+  for (int k = 0; k < vascular::most_balloons; ++k) {
+    const CoupledBalloon& own = s.balloons[k];
+    out.balloons[k] = {.balloon = own.balloon,
+                       .branch = own.branch,
+                       .shaft = {own.middle_m, own.aside_m, own.bend_1_m, std::numeric_limits<double>::infinity()},
+                       .gauge_Pa = k == s.first ? inputs.gauge_Pa : inputs.second_gauge_Pa,
+                       .drag_N = own.drag_N + own.caught_N};
+  }
   out.edge_m = s.edge_m, out.edge_N = s.edge_N;
   out.wire_tip_cell = s.wire_cell;
   out.wire_tip_N = s.wire_tip_N;

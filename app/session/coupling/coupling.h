@@ -29,7 +29,8 @@ struct DeliveryInputs {
   double injection_m3_s = 0;   ///< from the syringe into the guide's line
   double iodine_kg_m3 = 350;   ///< of the syringe's contents; 0: saline
   double aspiration_m3_s = 0;  ///< into the syringe, while nothing is injected
-  double gauge_Pa = 0;         ///< of the inflation device, on the balloon in the body; below 0: vacuum
+  double gauge_Pa = 0;  ///< of the inflation device, on the balloon that came into the body first; below 0: vacuum
+  double second_gauge_Pa = 0;  ///< of a second one, on the other balloon in the body, if there is one
   double heparin_U = 0, nitrate_ug = 0, adenosine_ug = 0;  ///< given in this step
   int drug = -1;                  ///< of the catalogue (vascular::DrugModel::others), given in this step; -1: none
   double drug_dose = 0;           ///< of that, in its unit
@@ -49,6 +50,7 @@ constexpr auto fields(const DeliveryInputs*) {
                     core::field("iodine_kg_m3", &S::iodine_kg_m3),
                     core::field("aspiration_m3_s", &S::aspiration_m3_s),
                     core::field("gauge_Pa", &S::gauge_Pa),
+                    core::field("second_gauge_Pa", &S::second_gauge_Pa),
                     core::field("heparin_U", &S::heparin_U),
                     core::field("nitrate_ug", &S::nitrate_ug),
                     core::field("adenosine_ug", &S::adenosine_ug),
@@ -68,8 +70,9 @@ constexpr auto fields(const DeliveryInputs*) {
 /// What is given in one step and not in the next: doses, a shock, a provocation.
 void forget_what_is_given_once(DeliveryInputs& inputs);
 
-struct CouplingState {
-  // The balloon in the body:
+/// A balloon in the body.
+struct CoupledBalloon {
+  int tool = -1;                                   ///< that carries it; -1: there is none
   int balloon = -1;                                ///< of TreatmentModel::balloons; -1: none is
   int branch = -1;                                 ///< its seat (cell_locator.h); -1: not in a single artery
   double middle_m = 0;                             ///< of its markers along the path, by its shaft
@@ -79,6 +82,21 @@ struct CouplingState {
   bool stent_out = false;                          ///< its crimped stent has left the guide and has not re-entered it
   bool caught = false;  ///< while being drawn back, the stent hangs on the guide's edge, which pushes it distally with
   double caught_N = 0;
+};
+constexpr auto fields(const CoupledBalloon*) {
+  using S = CoupledBalloon;
+  return std::tuple{core::field("tool", &S::tool),           core::field("balloon", &S::balloon),
+                    core::field("branch", &S::branch),       core::field("middle_m", &S::middle_m),
+                    core::field("aside_m", &S::aside_m),     core::field("bend_1_m", &S::bend_1_m),
+                    core::field("blocked", &S::blocked),     core::field("drag_N", &S::drag_N),
+                    core::field("stent_out", &S::stent_out), core::field("caught", &S::caught),
+                    core::field("caught_N", &S::caught_N)};
+}
+
+struct CouplingState {
+  /// A balloon that enters takes the first place that is free, and keeps it until it is out.
+  std::array<CoupledBalloon, vascular::most_balloons> balloons;
+  int first = 0;  ///< place of the balloon that came first
   // The guide: the catheter that contrast is injected through.
   int guide = -1;                    ///< tool; -1: none in the body
   vascular::TipPlace tip;            ///< position of its end hole
@@ -98,16 +116,8 @@ struct CouplingState {
 };
 constexpr auto fields(const CouplingState*) {
   using S = CouplingState;
-  return std::tuple{core::field("balloon", &S::balloon),
-                    core::field("branch", &S::branch),
-                    core::field("middle_m", &S::middle_m),
-                    core::field("aside_m", &S::aside_m),
-                    core::field("bend_1_m", &S::bend_1_m),
-                    core::field("blocked", &S::blocked),
-                    core::field("drag_N", &S::drag_N),
-                    core::field("stent_out", &S::stent_out),
-                    core::field("caught", &S::caught),
-                    core::field("caught_N", &S::caught_N),
+  return std::tuple{core::field("balloons", &S::balloons),
+                    core::field("first", &S::first),
                     core::field("guide", &S::guide),
                     core::field("tip", &S::tip),
                     core::field("covered", &S::covered),
@@ -130,6 +140,19 @@ CouplingState make_coupling(const Vessel& vessel);
 /// sizes that vascular refuses.
 std::vector<int> add_devices(const std::vector<SessionTool>& tools, std::uint64_t seed,
                              vascular::TreatmentModel& model);
+
+/// The balloon that came into the body first and is still there, with what treatment keeps of it; null: there is none.
+struct BalloonInBody {
+  const CoupledBalloon* place = nullptr;
+  const vascular::BalloonState* state = nullptr;
+  double gauge_Pa = 0;  ///< of its inflation device
+  explicit operator bool() const { return place != nullptr; }
+};
+/// By the order in which they came in: 0 or 1.
+BalloonInBody balloon_in_body(const CouplingState& state, const vascular::TreatmentState& treatment,
+                              const DeliveryInputs& inputs, int nth);
+/// The place of a tool's balloon; -1: it is not in the body.
+int place_of(const CouplingState& state, int tool);
 
 /// Whether the balloon has refolded.
 bool is_empty(const vascular::BalloonModel& model, const vascular::BalloonState& state);

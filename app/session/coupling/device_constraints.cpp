@@ -14,7 +14,7 @@ namespace {
 constexpr double on_guide_m = 3e-3;  // length at the guide's tip that a stent pushes on
 
 /// The path's frame; the path is extended straight beyond its ends.
-vascular::PathFrame place_of(const CouplingModel& model, const CouplingState& s, double at_m,
+vascular::PathFrame frame_of(const CouplingModel& model, const CoupledBalloon& s, double at_m,
                              const vascular::LumenMoment& moment) {
   const vascular::VesselPath& path = model.treatment.paths[static_cast<std::size_t>(s.branch)];
   vascular::PathFrame frame = frame_at(model.vessel.coronaries->map, path, at_m, moment);
@@ -29,14 +29,15 @@ std::array<core::Tether, core::max_tethers> tethers_on_shaft(const CouplingModel
                                                              const CouplingState& s, int tool,
                                                              const vascular::LumenMoment& moment) {
   const auto t = static_cast<std::size_t>(tool);
-  const vascular::BalloonState& body = treatment.balloon;
-  if (!body.held || s.branch < 0 || model.balloon_of[t] < 0 || model.balloon_of[t] != s.balloon) return {};
-  const vascular::BalloonModel& own = model.treatment.balloons[static_cast<std::size_t>(s.balloon)];
+  const int place = place_of(s, tool);
+  if (place < 0 || s.balloons[place].branch < 0 || !treatment.balloons[place].held) return {};
+  const vascular::BalloonState& body = treatment.balloons[place];
+  const vascular::BalloonModel& own = model.treatment.balloons[static_cast<std::size_t>(s.balloons[place].balloon)];
   const data::Instrument& instrument = model.tools[t].instrument;
   const double far_m = marker_from_tip_m(instrument, 1), near_m = marker_from_tip_m(instrument, 0);
   // Aside, the shaft is not pulled: contact's wall lags the lumen that the balloon opens, and what pulls a shaft
   // towards the one presses it into the other.
-  const vascular::PathFrame middle = place_of(model, s, body.seat_m, moment);
+  const vascular::PathFrame middle = frame_of(model, s.balloons[place], body.seat_m, moment);
   return {core::Tether{(near_m + far_m) / 2, middle.centre, middle.along, own.bond_N_m, 0}};
 }
 
@@ -45,12 +46,13 @@ core::StretchLoad load_on_shaft(const CouplingModel& model, const core::State& r
   const core::Rod& rod = model.rods.rods[t];
   const core::RodState& own = rods.rods[t];
   if (tool == s.guide && s.edge_push_N > 0) return {0, on_guide_m, -s.edge_push_N * direction_at_tip(rod, own)};
-  if (s.caught_N == 0 || s.balloon < 0 || model.balloon_of[t] != s.balloon) return {};
+  const int place = place_of(s, tool);
+  if (place < 0 || s.balloons[place].caught_N == 0) return {};
   const data::Instrument& instrument = model.tools[t].instrument;
   const double near_m = marker_from_tip_m(instrument, 0), far_m = marker_from_tip_m(instrument, 1);
   const Vector3d along = point_from_tip(rod, own, far_m) - point_from_tip(rod, own, near_m);
   if (!(along.norm() > 1e-6)) return {};
-  return {far_m, near_m, s.caught_N * along.normalized()};
+  return {far_m, near_m, s.balloons[place].caught_N * along.normalized()};
 }
 
 }  // namespace ostium::app

@@ -25,14 +25,14 @@ double tip_force_N(const CouplingModel& model, const core::StepReport& report, i
 /// The artery's cell at a tool's tip; -1: outside of them, or of the body.
 int cell_at_tip(const CouplingModel& model, const core::State& rods, int tool, const CouplingScratch& x);
 
-// balloon_look.cpp: where the balloon sits, what its crimped stent hangs on.
-void look_at_balloon(const CouplingModel& model, const core::State& rods, const vascular::TreatmentState& treatment,
-                     const core::StepReport& report, const vascular::LumenMoment& moment, CouplingScratch& x,
-                     CouplingState& s);
+// balloon_look.cpp: where the balloons sit, what their crimped stents hang on.
+void look_at_balloons(const CouplingModel& model, const core::State& rods, const vascular::TreatmentState& treatment,
+                      const core::StepReport& report, const vascular::LumenMoment& moment, CouplingScratch& x,
+                      CouplingState& s);
 /// A crimped stent that is drawn back into the guide hangs on its edge if the shaft leaves the guide at an angle, or if
 /// it is no longer crimped. The edge holds it; what it cannot be pulled off its balloon with, the shaft feels.
-void look_at_crimped_stent(const CouplingModel& model, const core::State& rods,
-                           const vascular::TreatmentState& treatment, CouplingState& s);
+void look_at_crimped_stents(const CouplingModel& model, const core::State& rods,
+                            const vascular::TreatmentState& treatment, CouplingState& s);
 
 // guide_look.cpp: where the guide's tip is, what it pushes.
 void look_at_guide(const CouplingModel& model, const core::State& rods, const core::StepReport& report,

@@ -147,8 +147,8 @@ HandlingMap::HandlingMap(const SessionModel& model) {
 
 double beyond_stent_m(const SessionModel& model, const SessionState& state) {
   constexpr double hard_atm = 10;
-  const int balloon = state.coupling.balloon;
-  if (balloon < 0 || !(state.treatment.balloon.pressure_Pa > hard_atm * 101325)) return 0;
+  const BalloonInBody own = balloon_in_body(state.coupling, state.treatment, {}, 0);
+  if (!own || !(own.state->pressure_Pa > hard_atm * 101325)) return 0;
   const auto& lesions = model.vessel->coronaries->lesions;
   double out_m = 0;
   for (int i = 0; i < static_cast<int>(lesions.size()); ++i) {
@@ -156,7 +156,7 @@ double beyond_stent_m(const SessionModel& model, const SessionState& state) {
     const auto at = balloon_from_lesion_m(model, state, i);
     if (!stents || !at) continue;
     const Plan& plan = lesions[static_cast<std::size_t>(i)];
-    const double half_m = model.treatment.balloons[static_cast<std::size_t>(balloon)].length_m / 2;
+    const double half_m = model.treatment.balloons[static_cast<std::size_t>(own.place->balloon)].length_m / 2;
     const double middle_m = *at + (plan.to_m - plan.from_m) / 2;
     const double from_m = middle_m - half_m, to_m = middle_m + half_m;
     if (to_m < stents->from_m || from_m > stents->to_m) continue;
@@ -209,9 +209,9 @@ void see(const SessionModel& model, const HandlingMap& map, const SessionInputs&
     if (x.thin_wire < 0 || tool.feed_m_s != 0 || tool.turn_rad_s != 0) x.thin_wire = t;  // of several, the one in hand
   }
   const CouplingState& b = state.coupling;
-  x.filled = b.balloon >= 0 &&
-             !is_empty(model.treatment.balloons[static_cast<std::size_t>(b.balloon)], state.treatment.balloon);
-  x.balloon = model.has_patient() ? b.balloon : -1;
+  const BalloonInBody own = balloon_in_body(b, state.treatment, inputs.delivery, 0);
+  x.filled = own && !is_empty(model.treatment.balloons[static_cast<std::size_t>(own.place->balloon)], *own.state);
+  x.balloon = own ? own.place->balloon : -1;
   x.beyond_stent_m = x.balloon < 0 ? 0 : beyond_stent_m(model, state);
   x.ST_mV = x.balloon < 0 ? 0 : ST_shift_mV(model.physiology.ischaemia, state.blood.ischaemia);
   x.guide_trace = b.guide >= 0 ? state.blood.line.trace : vascular::Trace::absent;

@@ -35,6 +35,7 @@ constexpr NamedRange table[] = {
     {"iodine_kg_m3", {0, 400}},
     {"aspiration_m3_s", {0, 20e-6}},
     {"gauge_Pa", {-atm, 30 * atm}},
+    {"second_gauge_Pa", {-atm, 30 * atm}},
     {"heparin_U", {0, 30000, true}},
     {"nitrate_ug", {0, 1000, true}},
     {"adenosine_ug", {0, 1000, true}},

@@ -74,18 +74,37 @@ double supply_behind_lesion(const SessionModel& model, const SessionState& state
   return supply(model.physiology.flow, state.blood.flow)[static_cast<std::size_t>(territory)];
 }
 
-std::optional<double> balloon_from_lesion_m(const SessionModel& model, const SessionState& state, int lesion) {
-  const Plan& plan = plan_of(model, lesion);
-  const CouplingState& b = state.coupling;
-  if (b.balloon < 0 || !in_artery_of(plan, model, b.branch, state.treatment.balloon.seat_m)) return {};
-  return state.treatment.balloon.seat_m - (plan.from_m + plan.to_m) / 2;
+namespace {
+
+/// Of the balloons in the lesion's artery the first in the body; null: there is none.
+struct BalloonThere {
+  const vascular::BalloonModel* model = nullptr;
+  double middle_m = 0;
+};
+BalloonThere balloon_at(const Plan& plan, const SessionModel& model, const SessionState& state, int tool) {
+  for (int nth = 0; nth < vascular::most_balloons; ++nth)
+    if (const BalloonInBody own = balloon_in_body(state.coupling, state.treatment, {}, nth);
+        own && (tool < 0 || own.place->tool == tool) && in_artery_of(plan, model, own.place->branch, own.state->seat_m))
+      return {&model.treatment.balloons[static_cast<std::size_t>(own.place->balloon)], own.state->seat_m};
+  return {};
 }
 
-std::optional<double> balloon_beyond_lesion_m(const SessionModel& model, const SessionState& state, int lesion) {
-  const std::optional<double> from_middle_m = balloon_from_lesion_m(model, state, lesion);
+}  // namespace
+
+std::optional<double> balloon_from_lesion_m(const SessionModel& model, const SessionState& state, int lesion,
+                                            int tool) {
+  const Plan& plan = plan_of(model, lesion);
+  const BalloonThere own = balloon_at(plan, model, state, tool);
+  if (!own.model) return {};
+  return own.middle_m - (plan.from_m + plan.to_m) / 2;
+}
+
+std::optional<double> balloon_beyond_lesion_m(const SessionModel& model, const SessionState& state, int lesion,
+                                              int tool) {
+  const std::optional<double> from_middle_m = balloon_from_lesion_m(model, state, lesion, tool);
   if (!from_middle_m) return {};
   const Plan& plan = plan_of(model, lesion);
-  const double length_m = model.treatment.balloons[static_cast<std::size_t>(state.coupling.balloon)].length_m;
+  const double length_m = balloon_at(plan, model, state, tool).model->length_m;
   return (length_m - (plan.to_m - plan.from_m)) / 2 - std::fabs(*from_middle_m);
 }
 
@@ -208,17 +227,20 @@ double ffr_behind_lesion(const SessionModel& model, const SessionState& state, i
 }
 
 double balloon_artery_ratio(const SessionModel& model, const SessionState& state) {
-  const CouplingState& b = state.coupling;
-  if (b.balloon < 0 || b.branch < 0 || !(state.treatment.balloon.pressure_Pa > 101325)) return 0;
-  const vascular::BalloonModel& balloon = model.treatment.balloons[static_cast<std::size_t>(b.balloon)];
-  const vascular::VesselPath& path = model.treatment.paths[static_cast<std::size_t>(b.branch)];
   double ratio = 0;
-  for (int i = 0; i < vascular::balloon_spheres; ++i) {
-    if (sphere_share(balloon, i) < 1) continue;
-    const auto at = path.at(sphere_position(balloon, state.treatment.balloon, i));
-    const vascular::FlowCell& cell =
-        model.physiology.flow.tree.cells[static_cast<std::size_t>(path.cells[static_cast<std::size_t>(at.index)])];
-    ratio = std::max(ratio, state.treatment.balloon.radius_m[static_cast<std::size_t>(i)] / cell.healthy_m);
+  for (int k = 0; k < vascular::most_balloons; ++k) {
+    const CoupledBalloon& place = state.coupling.balloons[k];
+    const vascular::BalloonState& own = state.treatment.balloons[k];
+    if (place.balloon < 0 || place.branch < 0 || !(own.pressure_Pa > 101325)) continue;
+    const vascular::BalloonModel& balloon = model.treatment.balloons[static_cast<std::size_t>(place.balloon)];
+    const vascular::VesselPath& path = model.treatment.paths[static_cast<std::size_t>(place.branch)];
+    for (int i = 0; i < vascular::balloon_spheres; ++i) {
+      if (sphere_share(balloon, i) < 1) continue;
+      const auto at = path.at(sphere_position(balloon, own, i));
+      const vascular::FlowCell& cell =
+          model.physiology.flow.tree.cells[static_cast<std::size_t>(path.cells[static_cast<std::size_t>(at.index)])];
+      ratio = std::max(ratio, own.radius_m[static_cast<std::size_t>(i)] / cell.healthy_m);
+    }
   }
   return ratio;
 }

@@ -25,10 +25,12 @@ double supply_behind_lesion(const SessionModel& model, const SessionState& state
 
 /// Middle of the balloon (between its markers) from the lesion's middle along the artery, m, positive distally; empty
 /// if the balloon is not in the lesion's artery.
-std::optional<double> balloon_from_lesion_m(const SessionModel& model, const SessionState& state, int lesion = 0);
+std::optional<double> balloon_from_lesion_m(const SessionModel& model, const SessionState& state, int lesion = 0,
+                                            int tool = -1);
 
 /// How far its markers lie beyond the lesion's ends, m: the one that lies less far; empty as above.
-std::optional<double> balloon_beyond_lesion_m(const SessionModel& model, const SessionState& state, int lesion = 0);
+std::optional<double> balloon_beyond_lesion_m(const SessionModel& model, const SessionState& state, int lesion = 0,
+                                              int tool = -1);
 
 /// Extent of the stents at the lesion, from its proximal end, m: the stent in its artery that overlaps it most or is
 /// nearest, and all that adjoin it without a gap.

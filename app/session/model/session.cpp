@@ -215,7 +215,8 @@ ToolInputs allowed(const SessionModel& model, const SessionState& state, int too
   if (!in_body(model.rods.rods[t], state.rods.rods[t]))
     if (const Obstacle other = in_the_way(model, state.rods, tool); other.tool >= 0)
       out = {}, report.refused = tool, report.in_its_way = other.tool;
-  if (state.coupling.blocked && model.balloon_of[t] >= 0) out.feed_m_s = 0;
+  if (const int place = place_of(state.coupling, tool); place >= 0 && state.coupling.balloons[place].blocked)
+    out.feed_m_s = 0;
   return out;
 }
 
@@ -270,10 +271,10 @@ void treat(const SessionModel& model, const SessionInputs& inputs, bool R_wave, 
   report.treatment =
       step(model.treatment, treatment_inputs(coupling, inputs.delivery, state.coupling), model.step_s(),
            state.treatment, {model.physiology.flow, state.blood, x.physiology_inputs.occupied_m}, x.treatment);
-  state.coupling.blocked = report.treatment.blocked;
+  for (int k = 0; k < vascular::most_balloons; ++k) state.coupling.balloons[k].blocked = report.treatment.blocked[k];
   if (model.bed && state.rods.step % look_every == 0) {
-    find_artery_loads(coupling, report.rods, state.treatment, report.treatment.balloon, state.blood.heart.phase,
-                      state.coupling, *x.coupling);
+    find_artery_loads(coupling, report.rods, state.treatment, report.treatment, state.blood.heart.phase, state.coupling,
+                      *x.coupling);
     give_way(*model.bed, look_every * model.step_s(), *x.coupling, state.bed, state.wall_aside_P);
   }
   tie_stents(model, state);

@@ -55,11 +55,10 @@ constexpr TestOfKind tests[] = {
      [](const Evaluator& e, const Condition& c, int) { return heart_rests(e.session) && e.measured(c) <= c.value; }},
     {Kind::balloon_open,
      [](const Evaluator& e, const Condition&, int) {
-       const vascular::BalloonState& balloon = e.session.treatment.balloon;
-       return e.balloon() && balloon.pressure_Pa > 101325 && waist(*e.balloon(), balloon) > 0.9;
+       const BalloonInBody own = e.balloon();
+       return own && own.state->pressure_Pa > 101325 && waist(e.model_of(own), *own.state) > 0.9;
      }},
-    {Kind::balloon_empty, [](const Evaluator& e, const Condition&,
-                             int) { return !e.balloon() || is_empty(*e.balloon(), e.session.treatment.balloon); }},
+    {Kind::balloon_empty, [](const Evaluator& e, const Condition&, int) { return e.balloons_are_empty(); }},
     {Kind::engaged, [](const Evaluator& e, const Condition&, int place) { return e.guide_is_in(place); }},
     {Kind::trace,
      [](const Evaluator& e, const Condition&, int place) {
@@ -116,7 +115,8 @@ constexpr MeasureOfKind measures[] = {
      [](const Evaluator& e, const Condition& c) { return std::fabs(e.balloon_from_lesion(c.lesion)); }},
     {Kind::balloon_spans, Settled::at_least,
      [](const Evaluator& e, const Condition& c) {
-       return balloon_beyond_lesion_m(e.model, e.session, c.lesion).value_or(std::numeric_limits<double>::quiet_NaN());
+       return balloon_beyond_lesion_m(e.model, e.session, c.lesion, e.balloon_tool())
+           .value_or(std::numeric_limits<double>::quiet_NaN());
      }},
     {Kind::balloon_clear, Settled::at_least,
      [](const Evaluator& e, const Condition&) { return e.balloon_beyond_guide_m(); }},
@@ -244,13 +244,39 @@ bool ConditionEvaluator::faces(int tool, int branch, double cosine) const {
   return round.dot(it.side) >= cosine * round.norm() && it.side.norm() > 0;
 }
 
-const vascular::BalloonModel* ConditionEvaluator::balloon() const {
-  const int b = session.coupling.balloon;
-  return b < 0 ? nullptr : &model.treatment.balloons[static_cast<std::size_t>(b)];
+int ConditionEvaluator::balloon_tool() const {
+  const auto at = static_cast<std::size_t>(state.step);
+  if (at >= plan.script.steps.size()) return -1;
+  for (const int tool : plan.script.steps[at].tools)
+    if (place_of(session.coupling, tool) >= 0) return tool;
+  return -1;
+}
+
+BalloonInBody ConditionEvaluator::balloon() const {
+  const int tool = balloon_tool();
+  for (int nth = 0; nth < vascular::most_balloons; ++nth)
+    if (const BalloonInBody own = balloon_in_body(session.coupling, session.treatment, {}, nth);
+        own && (tool < 0 || own.place->tool == tool))
+      return own;
+  return {};
+}
+
+const vascular::BalloonModel& ConditionEvaluator::model_of(const BalloonInBody& own) const {
+  return model.treatment.balloons[static_cast<std::size_t>(own.place->balloon)];
+}
+
+bool ConditionEvaluator::balloons_are_empty() const {
+  const int tool = balloon_tool();
+  for (int nth = 0; nth < vascular::most_balloons; ++nth)
+    if (const BalloonInBody own = balloon_in_body(session.coupling, session.treatment, {}, nth);
+        own && (tool < 0 || own.place->tool == tool) && !is_empty(model_of(own), *own.state))
+      return false;
+  return true;
 }
 
 double ConditionEvaluator::balloon_from_lesion(int lesion) const {
-  return balloon_from_lesion_m(model, session, lesion).value_or(std::numeric_limits<double>::quiet_NaN());
+  return balloon_from_lesion_m(model, session, lesion, balloon_tool())
+      .value_or(std::numeric_limits<double>::quiet_NaN());
 }
 
 /// Whether the tool is being advanced. Decided by the step's action; only for steps about other tools by the movement
@@ -267,20 +293,18 @@ bool ConditionEvaluator::comes_in(int tool) const {
 bool ConditionEvaluator::balloon_is_at(const data::ScriptCondition& c) const {
   if (!heart_rests(session)) return false;
   const double at_m = measured(c);
-  for (std::size_t t = 0; t < model.tools.size(); ++t)
-    if (model.balloon_of[t] == session.coupling.balloon)
-      return comes_in(static_cast<int>(t)) ? at_m >= c.value : at_m <= c.value;
-  return false;
+  const BalloonInBody own = balloon();
+  return own && (comes_in(own.place->tool) ? at_m >= c.value : at_m <= c.value);
 }
 
 /// Of its proximal marker from the guide's tip; NaN: no balloon is in the body.
 double ConditionEvaluator::balloon_beyond_guide_m() const {
   const auto inserted_m = [&](std::size_t tool) { return session.rods.rods[tool].inserted_m; };
   const double guide_m = session.coupling.guide < 0 ? 0 : inserted_m(static_cast<std::size_t>(session.coupling.guide));
-  for (std::size_t t = 0; t < model.tools.size(); ++t)
-    if (session.coupling.balloon >= 0 && model.balloon_of[t] == session.coupling.balloon)
-      return inserted_m(t) - marker_from_tip_m(model.tools[t].instrument, 0) - guide_m;
-  return std::numeric_limits<double>::quiet_NaN();
+  const BalloonInBody own = balloon();
+  if (!own) return std::numeric_limits<double>::quiet_NaN();
+  const auto t = static_cast<std::size_t>(own.place->tool);
+  return inserted_m(t) - marker_from_tip_m(model.tools[t].instrument, 0) - guide_m;
 }
 
 bool ConditionEvaluator::guide_is_in(int branch) const {

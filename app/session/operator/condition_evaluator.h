@@ -35,8 +35,12 @@ class ConditionEvaluator {
   bool faces(int tool, int branch, double cosine) const;
   double dropped_m(int tool) const;
   bool comes_in(int tool) const;
-  const vascular::BalloonModel* balloon() const;  ///< the one in the body, or null
-  double balloon_from_lesion(int lesion) const;   ///< m; NaN: not in its artery
+  /// That of the step's tool, or the one that came into the body first. Null: there is none.
+  BalloonInBody balloon() const;
+  const vascular::BalloonModel& model_of(const BalloonInBody& balloon) const;
+  bool balloons_are_empty() const;               ///< that of the step's tool, or all in the body
+  double balloon_from_lesion(int lesion) const;  ///< m; NaN: not in its artery
+  int balloon_tool() const;                      ///< the step's tool, if it carries one; -1
   bool balloon_is_at(const data::ScriptCondition& condition) const;
   double balloon_beyond_guide_m() const;
   bool guide_is_in(int branch) const;

@@ -190,7 +190,7 @@ void ask(const ScriptPlan& plan, const OperatorState& state, SessionInputs& inpu
   inputs.c_arm = {state.lao_rad, state.cran_rad, state.field_m, state.p_PI, state.fluoroscopy, state.cine};
   inputs.delivery = state.given;
   inputs.delivery.injection_m3_s = state.injection_m3_s, inputs.delivery.iodine_kg_m3 = state.iodine_kg_m3;
-  inputs.delivery.gauge_Pa = state.gauge_Pa;
+  inputs.delivery.gauge_Pa = state.gauge_Pa[0], inputs.delivery.second_gauge_Pa = state.gauge_Pa[1];
   const auto s = static_cast<std::size_t>(state.step);
   if (state.outcome != Outcome::running || s >= plan.script.steps.size()) return;
   const double factor = plan.hand_speed * hand_factor(plan.seed, static_cast<int>(s));

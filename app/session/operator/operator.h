@@ -38,8 +38,8 @@ struct OperatorState {
   double lao_rad = 0, cran_rad = 0, field_m = 0.2;
   bool fluoroscopy = false, cine = false;
   Eigen::Vector3d p_PI = Eigen::Vector3d::Zero();
-  double iodine_kg_m3 = 350, injection_m3_s = 0;  ///< of the syringe
-  double gauge_Pa = 0, began_gauge_Pa = 0;        ///< of the inflation device
+  double iodine_kg_m3 = 350, injection_m3_s = 0;                             ///< of the syringe
+  std::array<double, vascular::most_balloons> gauge_Pa{}, began_gauge_Pa{};  ///< of the inflation devices
   DeliveryInputs given;       ///< to be given in the next step: doses, fluid, drain, what the heart needs
   double began_moved_m3 = 0;  ///< by the line or drain that the step uses, until it began
   int in_the_way = -1;        ///< the tool that ended the script: another could not enter beside it

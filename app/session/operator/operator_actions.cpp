@@ -36,9 +36,36 @@ void press_syringe(const Step& step, const SessionState& session, double, Operat
   if (injected_m3(session) - state.began_moved_m3 < step.volume_m3) state.injection_m3_s = step.rate_m3_s;
 }
 
-void screw_inflation_device(const Step& step, const SessionState&, double now_s, OperatorState& state) {
+/// Whether the step is about the balloon that came in as the nth: that of its tool, or all. A device without a balloon
+/// is the first.
+bool is_about(const Step& step, const SessionState& session, int nth) {
+  const BalloonInBody own = balloon_in_body(session.coupling, session.treatment, {}, nth);
+  if (step.tools.empty()) return own || nth == 0;
+  return own && own.place->tool == step.tools.front();
+}
+
+void screw_inflation_devices(const Step& step, const SessionState& session, double now_s, OperatorState& state) {
   const double part = std::min(1.0, (now_s - state.began_s) / step.over_s);
-  state.gauge_Pa = part < 1 ? state.began_gauge_Pa + part * (step.gauge_Pa - state.began_gauge_Pa) : step.gauge_Pa;
+  for (int nth = 0; nth < vascular::most_balloons; ++nth) {
+    if (!is_about(step, session, nth)) continue;
+    const double began_Pa = state.began_gauge_Pa[nth];
+    state.gauge_Pa[nth] = part < 1 ? began_Pa + part * (step.gauge_Pa - began_Pa) : step.gauge_Pa;
+  }
+}
+
+bool all_show(const Step& step, const ConditionEvaluator& e) {
+  bool any = false;
+  for (int nth = 0; nth < vascular::most_balloons; ++nth)
+    if (is_about(step, e.session, nth)) {
+      if (e.state.gauge_Pa[nth] != step.gauge_Pa) return false;
+      any = true;
+    }
+  return any;
+}
+
+void draw_back(const Step& step, const SessionState& session, OperatorState& state) {
+  for (int nth = 0; nth < vascular::most_balloons; ++nth)
+    if (is_about(step, session, nth)) state.gauge_Pa[nth] = -vacuum_Pa;
 }
 
 void give_drug(const Step& step, const SessionState&, OperatorState& state) {
@@ -76,14 +103,11 @@ constexpr Handling handlings[] = {
      .moved_m3 = [](const SessionState& session) { return session.blood.heart.circulation.drawn_m3; }},
     {.action = data::ScriptAction::inflate,
      .begin = [](const Step&, const SessionState&, OperatorState& state) { state.began_gauge_Pa = state.gauge_Pa; },
-     .go_on = screw_inflation_device,
-     .is_over = [](const Step& step, const ConditionEvaluator& e) { return e.state.gauge_Pa == step.gauge_Pa; }},
+     .go_on = screw_inflation_devices,
+     .is_over = all_show},
     {.action = data::ScriptAction::deflate,
-     .begin = [](const Step&, const SessionState&, OperatorState& state) { state.gauge_Pa = -vacuum_Pa; },
-     .is_over =
-         [](const Step&, const ConditionEvaluator& e) {
-           return !e.balloon() || is_empty(*e.balloon(), e.session.treatment.balloon);
-         }},
+     .begin = draw_back,
+     .is_over = [](const Step&, const ConditionEvaluator& e) { return e.balloons_are_empty(); }},
     {.action = data::ScriptAction::drug, .begin = give_drug},
     {.action = data::ScriptAction::give,
      .begin = [](const Step& step, const SessionState&, OperatorState& state) { state.given.drug_dose = step.dose; }},
@@ -126,6 +150,15 @@ constexpr std::array<Handling, data::action_kinds> handling_of = [] {
 }();
 
 const Handling& handling(const data::ScriptStep& step) { return handling_of[static_cast<std::size_t>(step.action)]; }
+
+/// "12", "12 and 8", "none is on a balloon in the body".
+std::string gauges(const Step& step, const ConditionEvaluator& e) {
+  std::string out;
+  for (int nth = 0; nth < vascular::most_balloons; ++nth)
+    if (is_about(step, e.session, nth))
+      out += fmt::format("{}{:.3g}", out.empty() ? "" : " and ", e.state.gauge_Pa[nth] / vacuum_Pa);
+  return out.empty() ? "its balloon is not in the body" : out;
+}
 
 }  // namespace
 
@@ -173,7 +206,7 @@ std::string end_of_action(const data::ScriptStep& step, const ConditionEvaluator
     return fmt::format("volume_mL {:g} (now {:.3g})", step.volume_m3 / units::mL,
                        (handling(step).moved_m3(e.session) - e.state.began_moved_m3) / units::mL);
   if (step.action == data::ScriptAction::inflate)
-    return fmt::format("gauge_atm {:g} (now {:.3g})", step.gauge_Pa / vacuum_Pa, e.state.gauge_Pa / vacuum_Pa);
+    return fmt::format("gauge_atm {:g} (now {})", step.gauge_Pa / vacuum_Pa, gauges(step, e));
   return "an empty balloon";
 }
 

@@ -57,25 +57,30 @@ void EventWatch::look_at_heart(const SessionState& state, const EventSink& say) 
 
 void EventWatch::look_at_balloon(const SessionModel& model, const SessionInputs& inputs, const SessionState& state,
                                  const EventSink& say) {
-  const double gauge_Pa = inputs.delivery.gauge_Pa, time_s = seconds(model, state);
-  const vascular::BalloonState& balloon = state.treatment.balloon;
-  const bool inflated = gauge_Pa > atm && state.coupling.balloon >= 0;
-  if (inflated && !inflated_) {
-    say(data::EventCode::inflation_begins, -1, 0);
-    inflated_since_s_ = time_s, filled_ = true;
-    if (state.coupling.branch < 0) say(data::EventCode::inflation_in_catheter, -1, 0);
+  const double time_s = seconds(model, state);
+  for (int k = 0; k < vascular::most_balloons; ++k) {
+    const CoupledBalloon& place = state.coupling.balloons[k];
+    const vascular::BalloonState& balloon = state.treatment.balloons[k];
+    WatchedBalloon& was = balloons_[k];
+    const double gauge_Pa = k == state.coupling.first ? inputs.delivery.gauge_Pa : inputs.delivery.second_gauge_Pa;
+    const bool inflated = gauge_Pa > atm && place.balloon >= 0;
+    if (inflated && !was.inflated) {
+      say(data::EventCode::inflation_begins, -1, 0);
+      was.inflated_since_s = time_s, was.filled = true;
+      if (place.branch < 0) say(data::EventCode::inflation_in_catheter, -1, 0);
+    }
+    was.inflated = inflated;
+    if (place.balloon >= 0) {
+      const vascular::BalloonModel& own = model.treatment.balloons[static_cast<std::size_t>(place.balloon)];
+      const bool over = gauge_Pa > own.rated_Pa;
+      if (over && !was.over) say(data::EventCode::over_pressure, -1, gauge_Pa / atm);
+      was.over = over;
+      if (was.filled && !inflated && is_empty(own, balloon))
+        say(data::EventCode::deflated, -1, time_s - was.inflated_since_s), was.filled = false;
+      if (balloon.burst > was.burst) say(data::EventCode::balloon_burst, -1, gauge_Pa / atm);
+    }
+    was.burst = balloon.burst;
   }
-  inflated_ = inflated;
-  if (state.coupling.balloon >= 0) {
-    const vascular::BalloonModel& own = model.treatment.balloons[static_cast<std::size_t>(state.coupling.balloon)];
-    const bool over = gauge_Pa > own.rated_Pa;
-    if (over && !over_) say(data::EventCode::over_pressure, -1, gauge_Pa / atm);
-    over_ = over;
-    if (filled_ && !inflated && is_empty(own, balloon))
-      say(data::EventCode::deflated, -1, time_s - inflated_since_s_), filled_ = false;
-    if (balloon.burst > burst_) say(data::EventCode::balloon_burst, -1, gauge_Pa / atm);
-  }
-  burst_ = balloon.burst;
 }
 
 void EventWatch::look_at_stents(const SessionModel& model, const SessionState& state, const EventSink& say) {

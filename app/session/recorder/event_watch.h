@@ -46,8 +46,13 @@ class EventWatch {
   HandlingWatch handling_;
   std::vector<vascular::StentState::Where> stents_;  ///< where each was
   std::array<double, vascular::most_injuries> injuries_{};
-  bool injects_ = false, inflated_ = false, filled_ = false, over_ = false, closed_ = false;
-  double inflated_since_s_ = 0, closed_since_s_ = 0;
+  struct WatchedBalloon {
+    bool inflated = false, filled = false, over = false, burst = false;
+    double inflated_since_s = 0;
+  };
+  std::array<WatchedBalloon, vascular::most_balloons> balloons_;
+  bool injects_ = false, closed_ = false;
+  double closed_since_s_ = 0;
   bool leaks_ = false, leaked_ = false, low_ = false, pulseless_ = false, drains_ = false, infuses_ = false,
        compressed_ = false, paced_ = false, draws_ = false;
   bool hurts_ = false, awake_ = true;
@@ -57,7 +62,7 @@ class EventWatch {
   double compressed_since_s_ = 0;
   double leaks_since_s_ = 0, leak_seen_s_ = 0, pulseless_since_s_ = 0, perforated_s_ = -1;
   vascular::Rhythm rhythm_ = vascular::Rhythm::sinus;
-  bool ectopic_ = false, burst_ = false;
+  bool ectopic_ = false;
   vascular::Trace trace_ = vascular::Trace::absent;
   int refused_ = -1;
   bool fluoroscopy_ = false, cine_ = false;

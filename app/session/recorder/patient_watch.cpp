@@ -104,7 +104,8 @@ void EventWatch::look_at_care(const SessionModel& model, const SessionInputs& in
   const bool reverses = std::any_of(effects.begin(), effects.end(), [](const vascular::DrugEffect& one) {
     return one.target == vascular::DrugTarget::heparin;
   });
-  if (const int inside = (state.coupling.wire_cell >= 0) + (state.coupling.branch >= 0); reverses && inside > 0)
+  if (const int inside = (state.coupling.wire_cell >= 0) + (state.coupling.balloons[state.coupling.first].branch >= 0);
+      reverses && inside > 0)
     say(data::EventCode::protamine_over_devices, -1, inside);
 }
 

@@ -74,7 +74,8 @@ struct PatientNow {
   const SessionInputs& inputs;
   const vascular::PhysiologyState& blood;
   std::array<double, vascular::leads> ecg_mV;
-  const vascular::BalloonModel* balloon = nullptr;  ///< in the body
+  BalloonInBody own_balloon, second;                ///< the first and the second in the body
+  const vascular::BalloonModel* balloon = nullptr;  ///< of the first
   bool has_lesion;
   double lesion_length_m = 0;
   std::optional<double> balloon_from_middle_m;  ///< from the first lesion's middle, while no other lesion is nearer
@@ -90,13 +91,15 @@ PatientNow::PatientNow(const SessionModel& own_model, const SessionState& own_st
       inputs(own_inputs),
       blood(state.blood),
       ecg_mV(ecg(model.physiology.heart, blood.heart, model.physiology.ischaemia, blood.ischaemia)),
+      own_balloon(balloon_in_body(state.coupling, state.treatment, inputs.delivery, 0)),
+      second(balloon_in_body(state.coupling, state.treatment, inputs.delivery, 1)),
       has_lesion(!model.vessel->coronaries->lesions.empty()) {
-  if (state.coupling.balloon >= 0)
-    balloon = &model.treatment.balloons[static_cast<std::size_t>(state.coupling.balloon)];
+  if (own_balloon) balloon = &model.treatment.balloons[static_cast<std::size_t>(own_balloon.place->balloon)];
   if (!has_lesion) return;
   const Plan& plan = model.vessel->coronaries->lesions[0];
   lesion_length_m = plan.to_m - plan.from_m;
-  if (is_at_first(model, state)) balloon_from_middle_m = balloon_from_lesion_m(model, state);
+  if (is_at_first(model, state))
+    balloon_from_middle_m = balloon_from_lesion_m(model, state, 0, own_balloon ? own_balloon.place->tool : -1);
   lesion = lesion_now(model, state);
   stents = stented(model, state);
   open = stent_now(model, state);
@@ -114,16 +117,16 @@ double PatientNow::balloon_end_mm(double side) const {
   return 1e3 * (*balloon_from_middle_m + lesion_length_m / 2 + side * (balloon->length_m / 2));
 }
 
-double widest_mm(const PatientNow& x) {
-  double widest = 0;
-  for (double r : x.state.treatment.balloon.radius_m) widest = std::max(widest, 2e3 * r);
-  return x.balloon ? widest : 0;
+double widest_mm(const BalloonInBody& balloon) {
+  if (!balloon) return 0;
+  return 2e3 * *std::max_element(balloon.state->radius_m.begin(), balloon.state->radius_m.end());
 }
 
 double most_aside_mm(const PatientNow& x) {
   double most = 0;
-  for (const Eigen::Vector2d& aside_m : x.state.treatment.balloon.aside_m) most = std::max(most, 1e3 * aside_m.norm());
-  return x.balloon ? most : 0;
+  if (x.own_balloon)
+    for (const Eigen::Vector2d& aside_m : x.own_balloon.state->aside_m) most = std::max(most, 1e3 * aside_m.norm());
+  return most;
 }
 
 /// "The lesion" is the first of the case; positions along its artery are measured from its proximal end.
@@ -145,17 +148,22 @@ constexpr Signal<PatientNow> of_a_patient[] = {
     {"gauge_atm", "atm", "of the inflation device",
      [](const PatientNow& x) { return x.inputs.delivery.gauge_Pa / atm; }},
     {"balloon_atm", "atm", "pressure in the balloon",
-     [](const PatientNow& x) { return x.balloon ? x.state.treatment.balloon.pressure_Pa / atm : 0; }},
-    {"balloon_mm", "mm", "its largest diameter", widest_mm},
+     [](const PatientNow& x) { return x.own_balloon ? x.own_balloon.state->pressure_Pa / atm : 0; }},
+    {"balloon_mm", "mm", "its largest diameter", [](const PatientNow& x) { return widest_mm(x.own_balloon); }},
+    {"second_gauge_atm", "atm", "of the second inflation device",
+     [](const PatientNow& x) { return x.inputs.delivery.second_gauge_Pa / atm; }},
+    {"second_balloon_atm", "atm", "pressure in the second balloon in the body",
+     [](const PatientNow& x) { return x.second ? x.second.state->pressure_Pa / atm : 0; }},
+    {"second_balloon_mm", "mm", "its largest diameter", [](const PatientNow& x) { return widest_mm(x.second); }},
     {"balloon_ratio", "1", "its largest diameter between its markers over the healthy artery's there",
      [](const PatientNow& x) { return balloon_artery_ratio(x.model, x.state); }},
     {"waist", "1", "narrowest over widest of the balloon between its markers",
-     [](const PatientNow& x) { return x.balloon ? waist(*x.balloon, x.state.treatment.balloon) : none; }},
+     [](const PatientNow& x) { return x.balloon ? waist(*x.balloon, *x.own_balloon.state) : none; }},
     {"balloon_aside_mm", "mm", "most that its middle line lies aside of the artery's, once it is filled",
      most_aside_mm},
     {"balloon_slid_mm", "mm", "how far it lies off its place on its shaft, along the artery, distally",
      [](const PatientNow& x) {
-       return x.balloon ? 1e3 * (x.state.treatment.balloon.seat_m - x.state.coupling.middle_m) : none;
+       return x.own_balloon ? 1e3 * (x.own_balloon.state->seat_m - x.own_balloon.place->middle_m) : none;
      }},
     {"balloon_from_mm", "mm", "its proximal end, while no other lesion is nearer",
      [](const PatientNow& x) { return x.balloon_end_mm(-1); }},

@@ -78,6 +78,10 @@ void fill_bore(const SessionModel& model, const SessionState& state, const core:
   }
 }
 
+bool was_filled(const SessionState& state, int place) {
+  return place >= 0 && state.treatment.balloons[static_cast<std::size_t>(place)].was_filled;
+}
+
 /// Whether the stent must be drawn strut by strut, because its balloon was filled; the catalogue's opaque stretch is
 /// for the crimped stent.
 bool has_left_its_stent(const SessionModel& model, const SessionState& state, std::size_t tool) {
@@ -86,46 +90,56 @@ bool has_left_its_stent(const SessionModel& model, const SessionState& state, st
   const int stent = model.treatment.stent_on[static_cast<std::size_t>(balloon)];
   if (stent < 0) return false;
   return state.treatment.stents[static_cast<std::size_t>(stent)].where != vascular::StentState::on_balloon ||
-         (state.coupling.balloon == balloon && state.treatment.balloon.was_filled);
+         was_filled(state, place_of(state.coupling, static_cast<int>(tool)));
 }
 
 }  // namespace
 
 std::vector<double> occupied_m(const SessionModel& model, const SessionState& state) {
   std::vector<double> out = state.coupling.shaft_m;
-  const CouplingState& b = state.coupling;
-  if (b.balloon < 0 || b.branch < 0) return out;
-  const vascular::VesselPath& path = model.treatment.paths[static_cast<std::size_t>(b.branch)];
-  for (std::size_t k = 0; k < path.cells.size(); ++k) {
-    double& own = out[static_cast<std::size_t>(path.cells[k])];
-    own = std::max(own, radius_at(model.treatment.balloons[static_cast<std::size_t>(b.balloon)],
-                                  state.treatment.balloon, path.s_m[k]));
+  for (std::size_t n = 0; n < state.coupling.balloons.size(); ++n) {
+    const CoupledBalloon& b = state.coupling.balloons[n];
+    if (b.balloon < 0 || b.branch < 0) continue;
+    const vascular::VesselPath& path = model.treatment.paths[static_cast<std::size_t>(b.branch)];
+    for (std::size_t k = 0; k < path.cells.size(); ++k) {
+      double& own = out[static_cast<std::size_t>(path.cells[k])];
+      own = std::max(own, radius_at(model.treatment.balloons[static_cast<std::size_t>(b.balloon)],
+                                    state.treatment.balloons[n], path.s_m[k]));
+    }
   }
   return out;
 }
 
 void add_treatment(const SessionModel& model, const SessionState& state, fluoro::Scene& scene) {
   const Coronaries& c = *model.vessel->coronaries;
-  const CouplingState& b = state.coupling;
   const vascular::LumenMoment at = moment(model, state);
   const auto path_of = [&](double branch) -> const vascular::VesselPath& {
     return model.treatment.paths[static_cast<std::size_t>(branch)];
   };
-  const int own = b.balloon < 0 ? -1 : model.treatment.stent_on[static_cast<std::size_t>(b.balloon)];
-  const std::function<Eigen::Vector2d(double)> none, aside_m = [&](double s_m) {
-    return aside_at_m(model.treatment.balloons[static_cast<std::size_t>(b.balloon)], state.treatment.balloon, s_m);
-  };
   for (std::size_t i = 0; i < state.treatment.stents.size(); ++i) {
     const vascular::StentState& stent = state.treatment.stents[i];
-    const bool opening = static_cast<int>(i) == own && stent.where == vascular::StentState::on_balloon &&
-                         state.treatment.balloon.was_filled && b.branch >= 0;
-    if (stent.branch >= 0 && (stent.where == vascular::StentState::deployed || opening))
+    if (stent.branch < 0) continue;
+    std::function<Eigen::Vector2d(double)> aside_m;
+    bool opening = false;
+    for (std::size_t k = 0; k < state.coupling.balloons.size(); ++k) {
+      const CoupledBalloon& b = state.coupling.balloons[k];
+      const vascular::BalloonState& balloon = state.treatment.balloons[k];
+      if (stent.where != vascular::StentState::on_balloon || b.balloon < 0 || b.branch < 0 || !balloon.was_filled ||
+          model.treatment.stent_on[static_cast<std::size_t>(b.balloon)] != static_cast<int>(i))
+        continue;
+      opening = true;
+      aside_m = [its = &model.treatment.balloons[static_cast<std::size_t>(b.balloon)], own = &balloon](double s_m) {
+        return aside_at_m(*its, *own, s_m);
+      };
+    }
+    if (opening || stent.where == vascular::StentState::deployed)
       add_stent(model.treatment.stents[i], stent, path_of(stent.branch), *c.patient, c.map, *c.shape,
-                state.blood.radius_m, at, opening ? aside_m : none, scene);
+                state.blood.radius_m, at, aside_m, scene);
   }
-  if (b.balloon >= 0 && b.branch >= 0)
-    add_balloon(model.treatment.balloons[static_cast<std::size_t>(b.balloon)], state.treatment.balloon,
-                path_of(b.branch), c.map, at, false, scene);  // its shaft draws the markers
+  for (std::size_t k = 0; k < state.coupling.balloons.size(); ++k)
+    if (const CoupledBalloon& b = state.coupling.balloons[k]; b.balloon >= 0 && b.branch >= 0)
+      add_balloon(model.treatment.balloons[static_cast<std::size_t>(b.balloon)], state.treatment.balloons[k],
+                  path_of(b.branch), c.map, at, false, scene);  // its shaft draws the markers
   add_pools(state.treatment.injury, c.map, state.blood.radius_m, at, scene);
 }
 

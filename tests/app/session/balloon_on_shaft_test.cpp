@@ -14,7 +14,7 @@ constexpr int balloon_tool = 1;
 TEST(BalloonOnItsShaft, IsTakenToTheMiddleAndHoldsItsShaft) {
   ScriptedRun run(setup(), vessel());
   ASSERT_TRUE(run_to(run, 6)) << reason(run);
-  const vascular::BalloonState& body = run.state.treatment.balloon;
+  const vascular::BalloonState& body = run.state.treatment.balloons[0];
   const std::size_t middle = vascular::balloon_spheres / 2;
   const auto aside_mm = [&] { return 1e3 * body.aside_m[middle].norm(); };
   double most_aside_mm = 0, wall_N = 0;
@@ -23,7 +23,7 @@ TEST(BalloonOnItsShaft, IsTakenToTheMiddleAndHoldsItsShaft) {
     ASSERT_TRUE(run.tick());
     most_aside_mm = std::max(most_aside_mm, aside_mm());
     if (body.pressure_Pa < 4 * 101325) continue;
-    wall_N += run.report.treatment.balloon.aside_N;
+    wall_N += run.report.treatment.balloons[0].aside_N;
     ++counted;
   }
   ASSERT_GT(counted, 100);

@@ -227,7 +227,7 @@ TEST(Handling, BalloonsAreEmptyAsTheyMoveAndNotHeldForLong) {
       look_for(errors, p.map, p.scene, EventSink{0, p.events});
     }
   };
-  run.state.coupling.balloon = 0;
+  run.state.coupling.balloons[0].tool = 1, run.state.coupling.balloons[0].balloon = 0;
   p.scene.device = balloon;
   play(5, 1e-3);
   p.scene.gauge_atm = 10, p.scene.filled = true;
@@ -252,10 +252,10 @@ TEST(Handling, BalloonsAreEmptyAsTheyMoveAndNotHeldForLong) {
   const double half_stent = run.model.treatment.stents[0].length_m / 2,
                half_balloon = run.model.treatment.balloons[0].length_m / 2;
   stent.where = vascular::StentState::deployed, stent.branch = branch, stent.middle_m = middle, stent.shift_m = 0;
-  run.state.coupling.branch = branch;
-  run.state.treatment.balloon.pressure_Pa = 12 * 101325;
+  run.state.coupling.balloons[0].branch = branch;
+  run.state.treatment.balloons[0].pressure_Pa = 12 * 101325;
   const auto reach = [&](double beyond_m) {
-    run.state.treatment.balloon.seat_m = middle + half_stent + beyond_m - half_balloon;
+    run.state.treatment.balloons[0].seat_m = middle + half_stent + beyond_m - half_balloon;
   };
   reach(1e-3);
   play(5);
@@ -263,7 +263,7 @@ TEST(Handling, BalloonsAreEmptyAsTheyMoveAndNotHeldForLong) {
   reach(3e-3);
   play(5);
   EXPECT_EQ(p.took(data::EventCode::balloon_beyond_stent), 1);
-  run.state.treatment.balloon.pressure_Pa = 8 * 101325;
+  run.state.treatment.balloons[0].pressure_Pa = 8 * 101325;
   play(5);
   EXPECT_EQ(p.took(data::EventCode::balloon_beyond_stent), 0) << "softly";
 }

@@ -112,7 +112,8 @@ TEST(Lesions, EachLesionIsJudgedByTheStentsAtIt) {
   EXPECT_NEAR(stented(model, run.state, 0)->to_m, 35e-3, 0.5e-3) << "not to the end of the other one's";
   EXPECT_NEAR(*worst_of_lesions(model, run.state).margin_m, 3e-3, 0.5e-3);
 
-  run.state.coupling.balloon = 1, run.state.coupling.branch = artery, run.state.treatment.balloon.seat_m = middle_m(1);
+  run.state.coupling.balloons[0].tool = 1, run.state.coupling.balloons[0].balloon = 1,
+  run.state.coupling.balloons[0].branch = artery, run.state.treatment.balloons[0].seat_m = middle_m(1);
   EXPECT_NEAR(*balloon_from_lesion_m(model, run.state, 1), 0, 1e-6);
   EXPECT_NEAR(*balloon_from_lesion_m(model, run.state, 0), 41e-3, 0.5e-3);
   // Its markers, 28.5 mm apart, over 22 mm: so far beyond at both ends in the middle, less at one end beside it.
@@ -120,10 +121,10 @@ TEST(Lesions, EachLesionIsJudgedByTheStentsAtIt) {
   EXPECT_NEAR(*balloon_beyond_lesion_m(model, run.state, 1), (length_m - ill_m) / 2, 1e-6);
   EXPECT_GT(*balloon_beyond_lesion_m(model, run.state, 1), 2e-3);
   for (const double aside_m : {-4e-3, 4e-3}) {
-    run.state.treatment.balloon.seat_m = middle_m(1) + aside_m;
+    run.state.treatment.balloons[0].seat_m = middle_m(1) + aside_m;
     EXPECT_NEAR(*balloon_beyond_lesion_m(model, run.state, 1), (length_m - ill_m) / 2 - 4e-3, 1e-6);
   }
-  run.state.treatment.balloon.seat_m = middle_m(1);
+  run.state.treatment.balloons[0].seat_m = middle_m(1);
 }
 
 TEST(Lesions, ALesionThatThereIsNotIsRefused) {

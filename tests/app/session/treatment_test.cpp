@@ -34,10 +34,10 @@ TEST(Treatment, ABalloonOpensTheLesionAndTheWallThatRodsMeet) {
   EXPECT_NEAR(*balloon_from_lesion_m(run.model, run.state), 0, 6e-3) << "its 12 mm lie over the lesion's middle";
   const double open_flow = supply_behind_lesion(run.model, run.state);
   ASSERT_TRUE(run_to(run, 9)) << reason(run);
-  EXPECT_GT(run.state.treatment.balloon.pressure_Pa, 3 * 101325.0);
+  EXPECT_GT(run.state.treatment.balloons[0].pressure_Pa, 3 * 101325.0);
   EXPECT_GT(balloon_artery_ratio(run.model, run.state), 0.6);
   EXPECT_LT(supply_behind_lesion(run.model, run.state), open_flow);
-  EXPECT_TRUE(run.state.treatment.balloon.held) << "the wall holds it";
+  EXPECT_TRUE(run.state.treatment.balloons[0].held) << "the wall holds it";
 
   // A state from here goes on to the bit with a fresh scratch: the opened wall is made anew of it.
   SessionState other = run.state;
@@ -127,20 +127,20 @@ struct StentAhead {
 TEST(Treatment, AStentThatHangsOnTheGuidesEdgeIsLostIfPulledHard) {
   StentAhead s;
   CouplingState& coupling = s.run.state.coupling;
-  EXPECT_EQ(coupling.stent_out, 1);
+  EXPECT_EQ(coupling.balloons[0].stent_out, 1);
   ASSERT_LT(s.inside_m(), 0);
   // It hangs; a gentle pull, and it comes free when it is pushed on.
   s.move(s.stent, -20, 5, [&] { return s.inside_m() > 0.2e-3; });
-  coupling.caught = true;
+  coupling.balloons[0].caught = true;
   s.move(s.stent, -20, 0.08, [] { return false; });
-  EXPECT_EQ(coupling.caught, 1);
-  EXPECT_GT(coupling.caught_N, 0.3);
+  EXPECT_EQ(coupling.balloons[0].caught, 1);
+  EXPECT_GT(coupling.balloons[0].caught_N, 0.3);
   EXPECT_EQ(s.crimped().shift_m, 0);
-  s.move(s.stent, 20, 1, [&] { return !coupling.caught; });
-  EXPECT_EQ(coupling.caught, 0);
+  s.move(s.stent, 20, 1, [&] { return !coupling.balloons[0].caught; });
+  EXPECT_EQ(coupling.balloons[0].caught, 0);
   // Hard.
   s.move(s.stent, -20, 5, [&] { return s.inside_m() > 0.2e-3; });
-  coupling.caught = true;
+  coupling.balloons[0].caught = true;
   double pull_N = 0;
   s.move(s.stent, -20, 4, [&] {
     if (!s.report.tools.empty()) pull_N = std::min(pull_N, s.report.tools[s.stent].push_N);
@@ -149,7 +149,7 @@ TEST(Treatment, AStentThatHangsOnTheGuidesEdgeIsLostIfPulledHard) {
   EXPECT_EQ(s.crimped().where, vascular::StentState::lost);
   EXPECT_LT(pull_N, -1.0) << "the hand has felt it";
   s.move(s.stent, 0, 0.02, [] { return false; });
-  EXPECT_EQ(coupling.caught_N, 0);
+  EXPECT_EQ(coupling.balloons[0].caught_N, 0);
 }
 
 TEST(Treatment, AGuideThatGoesDeepDeformsAStentAndFeelsIt) {
@@ -157,14 +157,15 @@ TEST(Treatment, AGuideThatGoesDeepDeformsAStentAndFeelsIt) {
   vascular::StentState& stent = s.crimped();
   // As if it had been left there, hardly opened, right ahead of the guide.
   const Eigen::Vector3d p = tip(s.run.model, s.run.state, s.guide);
-  const vascular::VesselPath& path = s.run.model.treatment.paths[static_cast<std::size_t>(s.run.state.coupling.branch)];
+  const vascular::VesselPath& path =
+      s.run.model.treatment.paths[static_cast<std::size_t>(s.run.state.coupling.balloons[0].branch)];
   double at_m = 0, nearest = 1;
   for (std::size_t k = 0; k < path.cells.size(); ++k) {
     const Eigen::Vector3d c = s.run.model.vessel->coronaries->map.coronary.position(
         static_cast<std::size_t>(path.cells[k]), s.run.state.blood.heart.phase);
     if ((c - p).norm() < nearest) nearest = (c - p).norm(), at_m = path.s_m[k];
   }
-  stent.where = vascular::StentState::deployed, stent.branch = s.run.state.coupling.branch;
+  stent.where = vascular::StentState::deployed, stent.branch = s.run.state.coupling.balloons[0].branch;
   stent.middle_m = at_m + 2e-3 + (span_of(stent).second - span_of(stent).first) / 2, stent.shift_m = 0;
   for (auto* radii : {&stent.radius_m, &stent.rest_m}) std::fill(radii->begin(), radii->end(), 1.0e-3);
   const auto [from, to] = span_of(stent);
@@ -189,12 +190,12 @@ TEST(Treatment, ADeviceThatReachesOutOfTheOstiumLiesInTheArtery) {
   // Drawn out until less than half of it is in the artery: its place goes on until then, without a jump.
   double least = 1, was = -1, jump = 0;
   s.move(s.stent, -20, 3, [&] {
-    if (coupling.branch < 0) return true;
-    if (was >= 0) jump = std::max(jump, std::fabs(coupling.middle_m - was));
-    was = coupling.middle_m, least = std::min(least, was);
+    if (coupling.balloons[0].branch < 0) return true;
+    if (was >= 0) jump = std::max(jump, std::fabs(coupling.balloons[0].middle_m - was));
+    was = coupling.balloons[0].middle_m, least = std::min(least, was);
     return false;
   });
-  EXPECT_EQ(coupling.branch, -1);
+  EXPECT_EQ(coupling.balloons[0].branch, -1);
   EXPECT_LT(least, 0.3 * half_m);
   EXPECT_LT(jump, 2e-3);
 }
@@ -213,16 +214,16 @@ TEST(Treatment, AnOpenBalloonStaysInItsArtery) {
   for (int i = 0; i <= model.rods.rods[balloon].elements; ++i)
     aside.rods[balloon].position.set(i, run.state.rods.rods[balloon].position[i] + sideways);
   const auto branch_of = [&](vascular::TreatmentState treatment) {
-    treatment.balloon.held = false;  // within a stent it meets no wall
+    treatment.balloons[0].held = false;  // within a stent it meets no wall
     CouplingState coupling = run.state.coupling;
     look(model, aside, treatment, report, {.phase = run.state.blood.heart.phase}, scratch, coupling);
-    return coupling.branch;
+    return coupling.balloons[0].branch;
   };
-  const double artery = run.state.coupling.branch;
+  const double artery = run.state.coupling.balloons[0].branch;
   ASSERT_GE(artery, 0);
   EXPECT_NE(branch_of(run.state.treatment), artery) << "folded, it may be anywhere";
   vascular::TreatmentState open = run.state.treatment;
-  for (double& r : open.balloon.radius_m) r = 1.2e-3;
+  for (double& r : open.balloons[0].radius_m) r = 1.2e-3;
   EXPECT_EQ(branch_of(open), artery);
 }
 
@@ -313,14 +314,14 @@ TEST(Treatment, AWithdrawalIsNotDoneBeforeItsHandHasMoved) {
   ScriptedRun run(own, vessel());
   const Plan& plan = vessel()->coronaries->lesions[0];
   const double middle = (plan.from_m + plan.to_m) / 2;
-  run.state.coupling.balloon = 0;
-  run.state.coupling.branch = run.model.physiology.flow.tree.branch("RCA");
+  run.state.coupling.balloons[0].tool = 1, run.state.coupling.balloons[0].balloon = 0;
+  run.state.coupling.balloons[0].branch = run.model.physiology.flow.tree.branch("RCA");
   run.state.blood.heart.phase = 0.75;
   SessionReport report;
   report.tools.resize(run.model.tools.size());
   std::vector<OperatorEvent> events;
   const auto outcome = [&](double beyond_m) {
-    run.state.treatment.balloon.seat_m = middle + beyond_m;
+    run.state.treatment.balloons[0].seat_m = middle + beyond_m;
     return decide(run.plan, run.model, run.state, report, run.hands, run.inputs, events);
   };
   for (int i = 0; i < 3; ++i) EXPECT_EQ(outcome(10e-3), Outcome::running) << "it lies beyond, and the hand is late";

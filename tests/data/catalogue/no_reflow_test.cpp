@@ -22,7 +22,7 @@ struct Muscle : Bench {
     model.drugs.seed = seed;
     if (!name.empty()) model.drugs.others = {drug(name)};
     state = make_state(model, physiology.flow.tree);
-    device.balloon = -1;
+    device.balloons[0].balloon = -1;
     run(0, 20);
   }
   void give(const Doses& doses, double then_s) {

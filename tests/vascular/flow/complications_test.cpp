@@ -11,13 +11,13 @@ namespace {
 /// The bench with the rest of the body: what leaks leaves its arteries, reflexes act, ischaemia weakens.
 struct SickPerson : Bench {
   explicit SickPerson(const Setting& setting = {.stenosis = 0.1}) : Bench(setting) {
-    device.balloon = -1;
+    device.balloons[0].balloon = -1;
     live(30);
     settle_reflex(blood.heart.circulation);
     inputs.heart.body.reflexes = true;
   }
   void live(double seconds, double gauge_atm = 0) {
-    device.gauge_Pa = gauge_atm * atm;
+    device.balloons[0].gauge_Pa = gauge_atm * atm;
     for (int n = 0; n < 1000 * seconds; ++n) {
       act(model.drugs, state.drugs, inputs.heart.body);
       inputs.heart.body.leak_m3_s = leak_m3_s(state);
@@ -55,7 +55,7 @@ TEST(Leak, ABalloonHoldsItAndOnlyWhileItIsUp) {
   SickPerson p;
   p.perforate(1e-3);
   EXPECT_GT(p.leak_mL_s(), 1.5);
-  p.device.balloon = 0;
+  p.device.balloons[0].balloon = 0;
   p.live(8, 6);
   EXPECT_EQ(leak_m3_s(p.state), 0);
   p.live(9, -1);
@@ -66,9 +66,9 @@ TEST(Leak, ACoveredStentKeepsItClosed) {
   for (const int covered : {0, 1}) {
     SickPerson p({.stenosis = 0.1, .stent = true, .change = [&](TreatmentModel& m) { m.stents[0].covered = covered; }});
     p.perforate(1e-3);
-    p.device.balloon = 0;
+    p.device.balloons[0].balloon = 0;
     p.live(6, 12), p.live(9, -1);
-    p.device.balloon = -1;
+    p.device.balloons[0].balloon = -1;
     p.live(1);
     EXPECT_EQ(leak_m3_s(p.state) > 0, covered == 0);
   }

@@ -146,7 +146,8 @@ TEST(CellLocator, StepsOfPhysiologyAndTreatmentAllocateNothing) {
   PhysiologyInputs inputs;
   inputs.contrast.tip = {TipPlace::coronary, w.tree.branches[w.tree.branch("RCA")].first, 1};
   inputs.contrast.injection_m3_s = 2e-6;
-  TreatmentInputs device{.balloon = 0, .branch = w.tree.branch("RCA"), .shaft = {.middle_m = 48e-3}, .gauge_Pa = 0};
+  TreatmentInputs device;
+  device.balloons[0] = {.balloon = 0, .branch = w.tree.branch("RCA"), .shaft = {.middle_m = 48e-3}};
   PhysiologyScratch blood_scratch;
   TreatmentScratch scratch;
   const auto run = [&](int steps) {
@@ -157,7 +158,7 @@ TEST(CellLocator, StepsOfPhysiologyAndTreatmentAllocateNothing) {
   };
   run(3000);  // contrast has reached every branch of the right coronary
   const long before = allocations();
-  device.gauge_Pa = 10 * atm;
+  device.balloons[0].gauge_Pa = 10 * atm;
   run(500);
   EXPECT_EQ(allocations(), before);
 }

@@ -52,50 +52,50 @@ Bench with_shaft_aside(double aside_mm, double balloon_mm, std::array<Vector2d, 
   Bench bench({.stenosis = 0, .balloon_mm = balloon_mm});
   of.fill(Vector2d::Zero());
   for (int i = 0; i < balloon_spheres; ++i) of[i].x() = aside_mm * mm;
-  bench.device.shaft.aside_m = std::span(of).first(balloon_spheres);
-  bench.device.shaft.bend_1_m = std::span(of).last(balloon_spheres);
+  bench.device.balloons[0].shaft.aside_m = std::span(of).first(balloon_spheres);
+  bench.device.balloons[0].shaft.bend_1_m = std::span(of).last(balloon_spheres);
   return bench;
 }
 
 TEST(BalloonBody, LiesOnItsShaftUntilTheWallPushesItToTheMiddle) {
   std::array<Vector2d, 2 * balloon_spheres> of;
   Bench bench = with_shaft_aside(0.9, 3, of);
-  const auto middle_mm = [&] { return bench.state.balloon.aside_m[balloon_spheres / 2].x() / mm; };
+  const auto middle_mm = [&] { return bench.state.balloons[0].aside_m[balloon_spheres / 2].x() / mm; };
   bench.run(0.4, 3);  // not unfolded: it hangs on its shaft
   EXPECT_GT(middle_mm(), 0.6);
-  EXPECT_LT(bench.report.balloon.aside_N, 0.05);
+  EXPECT_LT(bench.report.balloons[0].aside_N, 0.05);
   bench.run(8, 6);  // as wide as the artery
   EXPECT_LT(std::fabs(middle_mm()), 0.02);
-  EXPECT_GT(bench.state.balloon.aside_m.front().x(), 0.1 * mm) << "its shaft pulls at its ends";
+  EXPECT_GT(bench.state.balloons[0].aside_m.front().x(), 0.1 * mm) << "its shaft pulls at its ends";
   // What the wall pushes with, the two bonds bear.
-  const BalloonState& s = bench.state.balloon;
+  const BalloonState& s = bench.state.balloons[0];
   const double bonds_N =
       s.bonds_N_m[0] * (of[0].x() - s.bonds_m[0].x()) + s.bonds_N_m[1] * (of[0].x() - s.bonds_m[1].x());
   EXPECT_GT(bonds_N, 0.05);
-  EXPECT_NEAR(bench.report.balloon.aside_N, bonds_N, 0.05 * bonds_N);
+  EXPECT_NEAR(bench.report.balloons[0].aside_N, bonds_N, 0.05 * bonds_N);
 }
 
 TEST(BalloonBody, IsHeldByCoulombOnACylinder) {
   std::array<Vector2d, 2 * balloon_spheres> of;
   Bench bench = with_shaft_aside(0, 3.5, of);
-  bench.device.shaft.holds_N_m = std::numeric_limits<double>::infinity();
+  bench.device.balloons[0].shaft.holds_N_m = std::numeric_limits<double>::infinity();
   bench.model.balloons[0].friction = 0.06;
-  const double at_m = bench.device.shaft.middle_m, bond_N_m = bench.model.balloons[0].bond_N_m;
+  const double at_m = bench.device.balloons[0].shaft.middle_m, bond_N_m = bench.model.balloons[0].bond_N_m;
   bench.run(6, 12);
-  ASSERT_TRUE(bench.state.balloon.held);
+  ASSERT_TRUE(bench.state.balloons[0].held);
   EXPECT_LT(std::fabs(bench.slip_m()), 0.05 * mm);
-  const double holds_N = 0.06 * bench.report.balloon.pressed_N;
+  const double holds_N = 0.06 * bench.report.balloons[0].pressed_N;
   ASSERT_GT(holds_N, 0.3);
   ASSERT_LT(holds_N, 2.5) << "more than its shaft bears";
   // Pulled by nine tenths of that it stays; by twice it comes along, until what is left is what holds it.
-  bench.device.shaft.middle_m = at_m - 0.9 * holds_N / bond_N_m;
+  bench.device.balloons[0].shaft.middle_m = at_m - 0.9 * holds_N / bond_N_m;
   bench.run(6, 2);
-  EXPECT_LT(std::fabs(bench.state.balloon.seat_m - at_m), 0.05 * holds_N / bond_N_m);
-  bench.device.shaft.middle_m = at_m - 2 * holds_N / bond_N_m;
+  EXPECT_LT(std::fabs(bench.state.balloons[0].seat_m - at_m), 0.05 * holds_N / bond_N_m);
+  bench.device.balloons[0].shaft.middle_m = at_m - 2 * holds_N / bond_N_m;
   bench.run(6, 2);
-  EXPECT_NEAR(bond_N_m * bench.slip_m(), 0.06 * bench.report.balloon.pressed_N, 0.05 * holds_N);
+  EXPECT_NEAR(bond_N_m * bench.slip_m(), 0.06 * bench.report.balloons[0].pressed_N, 0.05 * holds_N);
   bench.run(-1, 15);  // emptied, it is where its shaft is
-  EXPECT_FALSE(bench.state.balloon.held);
+  EXPECT_FALSE(bench.state.balloons[0].held);
   EXPECT_EQ(bench.slip_m(), 0);
 }
 
@@ -110,10 +110,10 @@ TEST(BalloonBody, LiesAsideInABendAsATubeOnTheWallDoes) {
     const double s_m = length_m * (static_cast<double>(i) / (balloon_spheres - 1) - 0.5);
     of[i] = Vector2d::Zero(), of[balloon_spheres + i] = Vector2d(5 * std::cos(q * s_m), 0);
   }
-  bench.device.shaft.aside_m = std::span<const Vector2d>(of).first(balloon_spheres);
-  bench.device.shaft.bend_1_m = std::span<const Vector2d>(of).last(balloon_spheres);
+  bench.device.balloons[0].shaft.aside_m = std::span<const Vector2d>(of).first(balloon_spheres);
+  bench.device.balloons[0].shaft.bend_1_m = std::span<const Vector2d>(of).last(balloon_spheres);
   bench.run(8, 8);
-  const BalloonState& s = bench.state.balloon;
+  const BalloonState& s = bench.state.balloons[0];
   const int at = balloon_spheres / 2;
   const double a = s.radius_m[at], y = s.aside_m[at].x();
   const int cell = bench.model.paths[0].cells[bench.model.paths[0].at(sphere_position(own, s, at)).index];

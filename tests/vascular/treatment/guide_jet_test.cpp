@@ -42,7 +42,7 @@ TEST(GuideJet, TearsAsOftenAsItsHazardSays) {
 Bench with_dissection(bool stent) {
   Bench bench({.stenosis = 0.1, .stent = stent});
   if (stent) bench.run(10, 6), bench.run(-1, 12);
-  bench.device.balloon = -1;
+  bench.device.balloons[0].balloon = -1;
   bench.device.provocation = {Provoked::dissection, 100, 1};
   bench.run(0, 1e-3);
   bench.device.provocation = {};

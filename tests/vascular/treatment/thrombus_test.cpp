@@ -11,7 +11,7 @@ namespace {
 /// The bench with a shaft along the whole artery, at an activated clotting time.
 struct Clotting : Bench {
   explicit Clotting(double heparin_U, const Setting& setting = {.stenosis = 0.1}) : Bench(setting) {
-    device.balloon = -1;
+    device.balloons[0].balloon = -1;
     state.drugs.heparin_U = heparin_U;
     shaft.assign(physiology.flow.tree.cells.size(), 0.2e-3);
     device.shaft_m = shaft;
@@ -97,9 +97,9 @@ TEST(Thrombus, ABalloonPressesItOnAsALumpAndAsNoReflow) {
   Clotting b(full_heparin_U);
   b.provoke(25);
   const double before = b.flow_mL_s();
-  b.device.balloon = 0;
+  b.device.balloons[0].balloon = 0;
   b.run(6, 5), b.run(-1, 9);
-  b.device.balloon = -1;
+  b.device.balloons[0].balloon = -1;
   b.run(0, 1);
   b.expect_nothing_lost();
   EXPECT_GT(b.state.thrombus.embolised_m3, 10 * mm3);

@@ -60,10 +60,11 @@ struct Bench {
     model.paths = all_paths(tree);
     blood = make_state(physiology);
     state = make_state(model, tree);
-    device.balloon = 0, device.branch = 0, device.shaft.middle_m = middle_m + o.shift_mm * mm;
+    device.balloons[0].balloon = 0, device.balloons[0].branch = 0,
+    device.balloons[0].shaft.middle_m = middle_m + o.shift_mm * mm;
   }
   void run(double gauge_atm, double seconds) {
-    device.gauge_Pa = gauge_atm * atm;
+    device.balloons[0].gauge_Pa = gauge_atm * atm;
     for (int n = 0; n < 1000 * seconds; ++n) {
       report = step(model, device, 1e-3, state, {physiology.flow, blood, inputs.occupied_m}, scratch);
       step(physiology, inputs, 1e-3, blood, blood_scratch);
@@ -72,7 +73,7 @@ struct Bench {
   /// Inflates, holds, and deflates under vacuum.
   void inflate(double gauge_atm) { run(gauge_atm, 5), run(-1, 9), run(0, 0.1); }
   /// How far the balloon has slid along the artery, on its shaft.
-  double slip_m() const { return state.balloon.seat_m - device.shaft.middle_m; }
+  double slip_m() const { return state.balloons[0].seat_m - device.balloons[0].shaft.middle_m; }
   double mld_mm() const {
     return 2e3 * *std::min_element(state.wall.radius_m.begin() + 50, state.wall.radius_m.begin() + 150);
   }

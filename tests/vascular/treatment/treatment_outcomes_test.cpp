@@ -42,7 +42,7 @@ TEST(Outcomes, AWaistIsDeeperInHarderPlaque) {
                    for (PlaqueCell& cell : m.plaque.cells) cell.yield_Pa *= x;
                  }});
                  bench.run(4, 5);
-                 return bench.report.balloon.waist;
+                 return bench.report.balloons[0].waist;
                }),
                "strength");
 }
@@ -51,9 +51,10 @@ TEST(Outcomes, ABalloonTakesLongerToEmptyThroughANarrowerTube) {
   expect_grows(with_cause([](double x) {
                  Bench bench({.change = [=](TreatmentModel& m) { m.balloons[0].filling_Pa_s_m3 *= x; }});
                  bench.run(8, 12);
-                 const double full = bench.state.balloon.volume_m3;
+                 const double full = bench.state.balloons[0].volume_m3;
                  double seconds = 0;
-                 for (; seconds < 40 && bench.state.balloon.volume_m3 > 0.2 * full; seconds += 0.1) bench.run(-1, 0.1);
+                 for (; seconds < 40 && bench.state.balloons[0].volume_m3 > 0.2 * full; seconds += 0.1)
+                   bench.run(-1, 0.1);
                  return seconds;
                }),
                "resistance");
@@ -100,7 +101,7 @@ TEST(Outcomes, AStentTooSmallLiesOffTheWall) {
 TEST(Outcomes, AStentIsLostSoonerTheLooserItIsCrimpedAndTheHarderItIsPulled) {
   const auto lost_after_s = [](double held, double pull) {
     Bench bench({.stent = true, .change = [=](TreatmentModel& m) { m.stents[0].held_N *= held; }});
-    bench.device.drag_N = 2 * pull;
+    bench.device.balloons[0].drag_N = 2 * pull;
     double seconds = 0;
     for (; seconds < 10 && bench.state.stents[0].where != StentState::lost; seconds += 0.1) bench.run(0, 0.1);
     return seconds;
@@ -157,7 +158,7 @@ TEST(Outcomes, MoreIsLostThroughALargerHole) {
                  Bench bench({});
                  Injury& hole = bench.state.injury.injuries[0];
                  hole.kind = InjuryKind::perforation, hole.cell = 60, hole.hole_m2 = x * 0.3e-6;
-                 bench.state.injury.count = 1, bench.device.balloon = -1;
+                 bench.state.injury.count = 1, bench.device.balloons[0].balloon = -1;
                  bench.run(0, 1);
                  return hole.outside_m3;
                }),
@@ -167,7 +168,7 @@ TEST(Outcomes, MoreIsLostThroughALargerHole) {
 TEST(Outcomes, NitrateWidensByItsDoseHeparinThinsByIts) {
   expect_grows(with_cause([](double x) {
                  Bench bench({.stenosis = 0.1});
-                 bench.device.balloon = -1;
+                 bench.device.balloons[0].balloon = -1;
                  bench.device.doses.nitrate_ug = 200 * x;
                  bench.run(0, 1e-3);
                  bench.device.doses = {};

@@ -49,11 +49,11 @@ TEST(Balloon, SpringsBackMoreIfThePlaqueIsSofterSprung) {
 TEST(Balloon, AWaistStandsAtLowPressureAndGivesWay) {
   Bench bench({});
   bench.run(3, 6);
-  EXPECT_LT(bench.report.balloon.waist, 0.7);
-  EXPECT_GT(bench.report.balloon.dog_bone, 1.3);
+  EXPECT_LT(bench.report.balloons[0].waist, 0.7);
+  EXPECT_GT(bench.report.balloons[0].dog_bone, 1.3);
   bench.run(14, 6);
-  EXPECT_GT(bench.report.balloon.waist, 0.8);
-  EXPECT_LT(bench.report.balloon.dog_bone, 1.25);
+  EXPECT_GT(bench.report.balloons[0].waist, 0.8);
+  EXPECT_LT(bench.report.balloons[0].dog_bone, 1.25);
 }
 
 TEST(Balloon, AThinCalciumRingBreaksAndAThickOneDoesNotYieldTo20Atm) {
@@ -62,7 +62,7 @@ TEST(Balloon, AThinCalciumRingBreaksAndAThickOneDoesNotYieldTo20Atm) {
                    for (PlaqueCell& cell : m.plaque.cells) cell.calcium_arc_share = 0.95, cell.calcium_m = thickness_m;
                  }});
     bench.run(gauge_atm, 12);
-    return bench.report.balloon.waist;
+    return bench.report.balloons[0].waist;
   };
   EXPECT_GT(waist(0.3e-3, 20), 0.9);
   EXPECT_LT(waist(1.5e-3, 20), 0.8);
@@ -85,14 +85,14 @@ TEST(Balloon, AShaftsTipOpensANarrowingElastically) {
   const double narrow_mm = bench.mld_mm();
   bench.run(0, 0.1);
   const std::vector<double>& radius_m = bench.state.wall.radius_m;
-  const double tip_at_m = bench.device.shaft.middle_m + 7.5 * mm + 3.5 * mm;
+  const double tip_at_m = bench.device.balloons[0].shaft.middle_m + 7.5 * mm + 3.5 * mm;
   for (std::size_t k = 0; k < radius_m.size(); ++k) {
     const double s_m = bench.physiology.flow.tree.cells[k].s_m;
-    if (s_m > bench.device.shaft.middle_m && s_m < tip_at_m) {
+    if (s_m > bench.device.balloons[0].shaft.middle_m && s_m < tip_at_m) {
       EXPECT_GT(radius_m[k], 0.3e-3);
     }
   }
-  bench.device.balloon = -1;
+  bench.device.balloons[0].balloon = -1;
   bench.run(0, 0.1);
   EXPECT_NEAR(bench.mld_mm(), narrow_mm, 1e-6);
 }
@@ -100,12 +100,12 @@ TEST(Balloon, AShaftsTipOpensANarrowingElastically) {
 TEST(Balloon, EmptiesUnderVacuumAndHardlyWithout) {
   Bench bench({});
   bench.run(8, 6);
-  const double full = bench.state.balloon.volume_m3;
+  const double full = bench.state.balloons[0].volume_m3;
   Bench left = bench;
   left.run(0, 6);
-  EXPECT_GT(left.state.balloon.volume_m3, 0.4 * full);
+  EXPECT_GT(left.state.balloons[0].volume_m3, 0.4 * full);
   bench.run(-1, 10);
-  EXPECT_LT(bench.state.balloon.volume_m3, 0.15 * full);
+  EXPECT_LT(bench.state.balloons[0].volume_m3, 0.15 * full);
 }
 
 TEST(Balloon, SlipsWhenItSitsOnAShoulder) {
@@ -142,15 +142,17 @@ TEST(Balloon, OnAConeItSeedsAtTheAngleThatFrictionSays) {
   const double slope = 0.012;
   const Bench held = in_a_cone(slope, 1.2 * slope), sliding = in_a_cone(slope, 0.8 * slope),
               back = in_a_cone(-slope, 0.8 * slope), level = in_a_cone(0, 1e-4);
-  const auto steep = [](const Bench& bench) { return bench.report.balloon.axial_N / bench.report.balloon.pressed_N; };
+  const auto steep = [](const Bench& bench) {
+    return bench.report.balloons[0].axial_N / bench.report.balloons[0].pressed_N;
+  };
   EXPECT_NEAR(steep(held), slope, 0.05 * slope) << "what the wall pushes along, over what it presses";
   EXPECT_LT(held.slip_m(), 0.2 * mm) << "a little, while only its narrow end touches";
   EXPECT_GT(sliding.slip_m(), 2 * mm) << "towards the wider end";
   EXPECT_LT(back.slip_m(), -2 * mm);
   // It stays where its shaft and friction hold it together.
-  const BalloonReport& at = sliding.report.balloon;
+  const BalloonReport& at = sliding.report.balloons[0];
   const BalloonModel& own = sliding.model.balloons[0];
-  EXPECT_NEAR(sliding.device.shaft.holds_N_m * sliding.slip_m(), at.axial_N - own.friction * at.pressed_N,
+  EXPECT_NEAR(sliding.device.balloons[0].shaft.holds_N_m * sliding.slip_m(), at.axial_N - own.friction * at.pressed_N,
               0.05 * own.friction * at.pressed_N);
   EXPECT_LT(std::fabs(level.slip_m()), 0.02 * mm);
 }
@@ -160,7 +162,7 @@ TEST(Balloon, StopsTheFlowMeanwhile) {
   bench.run(0, 3);
   const double open = bench.blood.flow.flow_m3_s[20];
   bench.run(8, 8);
-  EXPECT_TRUE(bench.report.balloon.seals);
+  EXPECT_TRUE(bench.report.balloons[0].seals);
   EXPECT_LT(bench.blood.flow.flow_m3_s[150], 1e-3 * open);
   bench.run(-1, 14);
   EXPECT_GT(bench.blood.flow.flow_m3_s[150], 0.5 * open);
@@ -171,16 +173,16 @@ TEST(Balloon, BurstsAboveItsRatedPressureNeverBelow) {
   for (std::uint64_t seed = 1; seed <= 12; ++seed) {
     Bench bench({.seed = seed});
     bench.run(bench.model.balloons[0].rated_Pa / atm, 6);
-    EXPECT_EQ(bench.state.balloon.burst, 0) << seed;
+    EXPECT_EQ(bench.state.balloons[0].burst, 0) << seed;
     bench.run(1.2 * bench.model.balloons[0].rated_Pa / atm, 4);
-    burst += bench.state.balloon.burst;
+    burst += bench.state.balloons[0].burst;
   }
   EXPECT_GT(burst, 2);
   EXPECT_LT(burst, 12);
   Bench bench({.seed = 3});
   bench.run(2 * bench.model.balloons[0].rated_Pa / atm, 8);
-  EXPECT_EQ(bench.state.balloon.burst, 1);
-  EXPECT_LT(bench.state.balloon.pressure_Pa, 0.1 * atm);
+  EXPECT_EQ(bench.state.balloons[0].burst, 1);
+  EXPECT_LT(bench.state.balloons[0].pressure_Pa, 0.1 * atm);
   // The contrast of the burst balloon is in the vessel and accounted for.
   EXPECT_GT(bench.blood.contrast.injected_kg, 0);
   EXPECT_NEAR(accounted_kg(bench.blood.contrast), bench.blood.contrast.injected_kg,
@@ -242,18 +244,18 @@ TEST(Stent, IsPostDilatedByALargerBalloon) {
                }});
   bench.inflate(10);
   const double before = bench.stent_mm();
-  bench.device.balloon = 1;
+  bench.device.balloons[0].balloon = 1;
   bench.inflate(16);
   EXPECT_GT(bench.stent_mm(), before + 0.3);
 }
 
 TEST(Stent, SlipsOffItsBalloonIfPulledHardAndOnlyThen) {
   Bench gentle({.stent = true});
-  gentle.device.drag_N = -1.0;
+  gentle.device.balloons[0].drag_N = -1.0;
   gentle.run(0, 5);
   EXPECT_EQ(gentle.state.stents[0].shift_m, 0);
   Bench hard({.stent = true});
-  hard.device.drag_N = -3.0;
+  hard.device.balloons[0].drag_N = -3.0;
   hard.run(0, 0.3);
   EXPECT_LT(hard.state.stents[0].shift_m, -1 * mm);
   hard.run(0, 5);
@@ -284,7 +286,7 @@ TEST(Stent, ASecondDeviceDoesNotPassOneThatIsNotOpen) {
   stent.where = StentState::deployed, stent.branch = 0, stent.middle_m = bench.middle_m;
   for (double& r : stent.radius_m) r = 0.40 * mm;
   for (double& r : stent.rest_m) r = 0.40 * mm;
-  bench.device.balloon = 1;
+  bench.device.balloons[0].balloon = 1;
   bench.run(0, 0.01);
   EXPECT_TRUE(bench.report.blocked);
   bench.run(12, 5);
@@ -335,7 +337,7 @@ TEST(Injury, ContrastLeavesThroughAHoleAndIsAccountedFor) {
   bench.state.injury.count = 1;
   bench.inputs.contrast.tip = {TipPlace::coronary, 0, 1};
   bench.inputs.contrast.injection_m3_s = 2e-6;
-  bench.device.balloon = -1;
+  bench.device.balloons[0].balloon = -1;
   bench.run(0, 4);
   EXPECT_GT(hole.outside_m3, 1e-6);
   EXPECT_GT(hole.outside_kg, 20e-6);
@@ -348,7 +350,7 @@ TEST(Injury, ContrastLeavesThroughAHoleAndIsAccountedFor) {
 
 TEST(Treatment, SpasmNarrowsAndNitrateRelievesIt) {
   Bench bench({.stenosis = 0.1});
-  bench.device.balloon = -1;
+  bench.device.balloons[0].balloon = -1;
   bench.state.spasm[0] = 0.5;
   bench.run(0, 1);
   EXPECT_NEAR(bench.blood.radius_m[20], 0.75 * mm, 0.01 * mm);
