@@ -288,7 +288,7 @@ TEST(Stent, ASecondDeviceDoesNotPassOneThatIsNotOpen) {
   for (double& r : stent.rest_m) r = 0.40 * mm;
   bench.device.balloons[0].balloon = 1;
   bench.run(0, 0.01);
-  EXPECT_TRUE(bench.report.blocked);
+  EXPECT_TRUE(bench.report.blocked[0]);
   bench.run(12, 5);
   EXPECT_LT(bench.state.wall.peak_m[100], 0.6 * mm);  // it was not inflated there either
 }
