@@ -1,0 +1,173 @@
+// Two balloons side by side: closed forms, and a provisional stent across a fork with a kissing inflation and a
+// proximal optimisation, against bench figures.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "core/base/units.h"
+#include "vascular/treatment/side_by_side.h"
+#include "vascular/treatment/stent_shape.h"
+#include "vascular/treatment/treatment.h"
+
+namespace ostium::vascular {
+namespace {
+
+using units::atm, units::mL_min, units::mm, units::pi;
+
+/// Perimeter of the convex hull of two circles, from its support function.
+double hull_of_circles(double a, double b, double apart) {
+  const int n = 20000;
+  double sum = 0;
+  for (int i = 0; i < n; ++i) {
+    const double f = 2 * pi * (i + 0.5) / n;
+    sum += std::max(a, b + apart * std::cos(f)) * 2 * pi / n;
+  }
+  return sum;
+}
+
+TEST(SideBySide, IsTheHullOfTwoCirclesThatTouch) {
+  for (const double b : {0.3, 0.8, 1.5}) {
+    const double a = 1.5;
+    EXPECT_NEAR(side_by_side(a, b, 0).lumen_m, hull_of_circles(a, b, a + b) / (2 * pi), 1e-6);
+    EXPECT_NEAR(side_by_side(a, b, 0).apart_m, a + b, 1e-12);
+    EXPECT_NEAR(side_by_side(a, b, 0).narrow, a / (a + b), 1e-12);
+  }
+}
+
+TEST(SideBySide, OneAloneIsRound) {
+  const SideBySide alone = side_by_side(1.5, 0, 0.7);
+  EXPECT_EQ(alone.lumen_m, 1.5);
+  EXPECT_EQ(alone.by_a, 1);
+  EXPECT_EQ(alone.narrow, 1);
+  EXPECT_NEAR(side_by_side(1.5, 1e-9, 0.7).lumen_m, 1.5, 1e-4);
+}
+
+TEST(SideBySide, ItsDerivativeIsThatOfItsRadius) {
+  const double h = 1e-6;
+  for (const double beta : {0.0, 0.4, 1.2, pi / 2})
+    for (const double a : {0.5, 1.0, 1.4}) {
+      const double slope = (side_by_side(a + h, 1, beta).lumen_m - side_by_side(a - h, 1, beta).lumen_m) / (2 * h);
+      EXPECT_NEAR(side_by_side(a, 1, beta).by_a, slope, 1e-5) << a << " " << beta;
+    }
+}
+
+/// Area of two equal ones of radius 1, flattened, by the area under their outline.
+double area_of_two(double beta) {
+  const double rho = pi / (pi - beta + std::sin(beta));
+  const int n = 20000;
+  double area = 0;
+  for (int i = 0; i < n; ++i) {
+    const double x = -rho * std::cos(beta) + (i + 0.5) / n * rho * (1 + std::cos(beta));
+    area += 2 * std::sqrt(std::max(0.0, rho * rho - x * x)) * rho * (1 + std::cos(beta)) / n;
+  }
+  return 2 * area;
+}
+
+TEST(SideBySide, TheirPressureDoesTheWorkOfTheWallsTension) {
+  const double h = 1e-4;
+  for (const double beta : {0.3, 0.8, 1.2, 1.5}) {
+    const auto length = [](double angle) { return 2 * pi * side_by_side(1, 1, angle).lumen_m; };
+    const double tension = (area_of_two(beta + h) - area_of_two(beta - h)) / (length(beta + h) - length(beta - h));
+    EXPECT_NEAR(flattened_rad(tension), beta, 2e-3) << beta;
+  }
+  const double rho = pi / (pi / 2 + 1);
+  EXPECT_NEAR(flattened_rad(0.999 * rho), pi / 2, 0.03) << "T = p rho: one round lumen, by Laplace";
+  EXPECT_EQ(flattened_rad(2 * rho), pi / 2);
+  EXPECT_EQ(flattened_rad(-1), 0);
+}
+
+/// A left main of 4.0 mm that forks into 3.2 and 2.8 mm, without plaque, in a phantom.
+struct Fork {
+  FlowTree tree = plain_tree({{-1, 40, 0.3 * mm, 2.0 * mm, Territory::lad},
+                              {0, 100, 0.3 * mm, 1.6 * mm, Territory::lad},
+                              {0, 100, 0.3 * mm, 1.4 * mm, Territory::lcx}});
+  PhysiologyModel physiology{.heart = {}, .ischaemia = {}, .flow = {}, .contrast = {}, .line = {}};
+  TreatmentModel model;
+  PhysiologyState blood;
+  TreatmentState state;
+  TreatmentInputs inputs;
+  TreatmentScratch scratch;
+  TreatmentReport report;
+  std::vector<double> occupied_m;
+  double carina_m = 0;
+  enum Device { own, main_kiss, side_kiss, large };
+
+  Fork() {
+    physiology.flow = make_flow_model(tree, 100 * mL_min);
+    physiology.contrast = make_contrast_model(physiology.flow);
+    PlaqueLaw phantom;
+    phantom.healthy_Pa = 12 * atm;  // a silicone tube [estimate: 1 MPa, a wall of a tenth of its radius]
+    model.plaque = make_plaque_model(tree, {}, phantom);
+    model.balloons = {make_balloon(Compliance::semi, 3.25e-3, 18e-3), make_balloon(Compliance::non, 3.0e-3, 15e-3),
+                      make_balloon(Compliance::non, 3.0e-3, 15e-3), make_balloon(Compliance::non, 4.0e-3, 8e-3)};
+    model.stents = {make_stent(3.25e-3, 18e-3)}, model.stent_on = {0, -1, -1, -1};
+    model.paths = all_paths(tree);
+    carina_m = model.paths[1].s_m[39] + 0.15 * mm;
+    blood = make_state(physiology);
+    state = make_state(model, tree);
+  }
+  void place(int k, Device device, int branch, double middle_m) {
+    inputs.balloons[k] = {.balloon = device, .branch = branch, .shaft = {.middle_m = middle_m}};
+  }
+  void run(double gauge_atm, double seconds) {
+    for (PlacedBalloon& placed : inputs.balloons) placed.gauge_Pa = gauge_atm * atm;
+    for (int n = 0; n < 1000 * seconds; ++n)
+      report = step(model, inputs, 1e-3, state, {physiology.flow, blood, occupied_m}, scratch);
+  }
+  void inflate(double gauge_atm) {
+    run(gauge_atm, 6), run(-1, 9);
+    inputs.balloons = {}, run(0, 0.05);
+  }
+  /// Rings whose middle lies in the left main, short of the carina's last millimetre.
+  template <class F>
+  void proximal(const F& visit) const {
+    const StentModel& m = model.stents[0];
+    const StentState& s = state.stents[0];
+    for (int k = 0; k < m.rings; ++k)
+      if (s.middle_m + s.shift_m + (k - (m.rings - 1) / 2.0) * m.pitch_m() < carina_m - 1.5 * mm) visit(k);
+  }
+  double narrow() const {
+    double least = 1;
+    proximal([&](int k) { least = std::min(least, state.stents[0].narrow[k]); });
+    return least;
+  }
+  double area_mm2() const {
+    double least = 1;
+    proximal([&](int k) { least = std::min(least, area_of_ring_m2(state.stents[0], k)); });
+    return 1e6 * least;
+  }
+  double malapposed() const {
+    const std::vector<double> all = gaps(model.stents[0], state.stents[0], model.paths[1], state.wall);
+    const int around = 2 * model.stents[0].crowns;
+    int apart = 0, count = 0;
+    proximal([&](int k) {
+      for (int j = 0; j < around; ++j) apart += all[k * around + j] > 0.2 * mm, ++count;
+    });
+    return static_cast<double>(apart) / count;
+  }
+};
+
+TEST(Kissing, LeavesAnOvalStentThatOneLargeBalloonRounds) {
+  Fork f;
+  f.place(0, Fork::own, 1, f.carina_m + 1 * mm), f.inflate(12);
+  std::printf("stented: narrow %.2f area %.1f mm2 apart %.0f %%\n", f.narrow(), f.area_mm2(), 100 * f.malapposed());
+  EXPECT_EQ(f.narrow(), 1);
+  EXPECT_GT(f.malapposed(), 0.2) << "it was chosen for the distal vessel";
+  f.place(0, Fork::main_kiss, 1, f.carina_m + 3.5 * mm), f.place(1, Fork::side_kiss, 2, f.carina_m + 3.5 * mm);
+  f.run(10, 6);
+  std::printf("kiss: a %.2f %.2f mm flat %.2f rad, lumen %.2f mm\n", 2e3 * f.state.balloons[0].radius_m[12],
+              2e3 * f.state.balloons[1].radius_m[12], f.state.balloons[0].flat_rad[12],
+              2e3 * f.state.wall.radius_m[35]);
+  f.run(-1, 9), f.inputs.balloons = {}, f.run(0, 0.05);
+  const double oval = f.narrow(), area = f.area_mm2();
+  std::printf("kissed: narrow %.2f area %.1f mm2 apart %.0f %%\n", oval, area, 100 * f.malapposed());
+  f.place(0, Fork::large, 1, f.carina_m - 4.5 * mm), f.inflate(14);
+  std::printf("rounded: narrow %.2f area %.1f mm2 apart %.0f %%\n", f.narrow(), f.area_mm2(), 100 * f.malapposed());
+  EXPECT_LT(oval, 0.80);
+  EXPECT_GT(f.narrow(), 0.88);
+  EXPECT_LT(f.malapposed(), 0.05);
+}
+
+}  // namespace
+}  // namespace ostium::vascular
