@@ -159,7 +159,17 @@ TEST(Kissing, LeavesAnOvalStentThatOneLargeBalloonRounds) {
   std::printf("kiss: a %.2f %.2f mm flat %.2f rad, lumen %.2f mm\n", 2e3 * f.state.balloons[0].radius_m[12],
               2e3 * f.state.balloons[1].radius_m[12], f.state.balloons[0].flat_rad[12],
               2e3 * f.state.wall.radius_m[35]);
+  const auto show = [&](const char* what) {
+    std::printf("%s:", what);
+    for (std::size_t k = 0; k < f.state.stents[0].narrow.size(); ++k)
+      std::printf(" %.2f/%.2f", f.state.stents[0].narrow[k], 2e3 * f.state.stents[0].radius_m[k]);
+    std::printf("\n");
+  };
+  show("under");
+  for (int i = 0; i < 64; i += 3) std::printf(" %.2f:%.2f", f.state.balloons[0].flat_rad[i], 2e3 * f.state.balloons[0].radius_m[i]);
+  std::printf("\n");
   f.run(-1, 9), f.inputs.balloons = {}, f.run(0, 0.05);
+  show("after");
   const double oval = f.narrow(), area = f.area_mm2();
   std::printf("kissed: narrow %.2f area %.1f mm2 apart %.0f %%\n", oval, area, 100 * f.malapposed());
   f.place(0, Fork::large, 1, f.carina_m - 4.5 * mm), f.inflate(14);
