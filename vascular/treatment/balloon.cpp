@@ -195,9 +195,11 @@ Share share_of_wall(const BalloonInputs& in, const BalloonState& s, int i) {
 }
 
 /// The two flatten each other as far as the wall draws them together.
-void flatten(double wall_Pa, const BalloonInputs& in, double dt, int i, BalloonState& s) {
-  const double mean_m = (s.radius_m[i] + beside_m(in, i)) / 2, filled_Pa = std::max(s.pressure_Pa, least_filled_Pa);
-  const double rest_rad = beside_m(in, i) > 0 ? flattened_rad(wall_Pa * lumen_m(in, s, i) / (filled_Pa * mean_m)) : 0;
+void flatten(const WallPressure& wall, const BalloonInputs& in, double dt, int i, BalloonState& s) {
+  double rest_rad = 0;
+  if (beside_m(in, i) > 0)
+    rest_rad = flattened_rad(s.radius_m[i], beside_m(in, i), std::max(s.pressure_Pa, least_filled_Pa),
+                             {wall.p_Pa, wall.slope_Pa_m, lumen_m(in, s, i)});
   s.flat_rad[i] += std::min(1.0, dt / flattens_s) * (rest_rad - s.flat_rad[i]);
 }
 
@@ -248,7 +250,8 @@ BalloonReport step(const BalloonModel& m, const PlaqueModel& plaque, const Ballo
     const bool sleeved = is_sleeved(in, i);
     const Share bears = share_of_wall(in, s, i);
     const auto add = [&](double p_Pa, double slope_Pa_m) {
-      sum.p_Pa += bears.p * p_Pa, sum.slope_Pa_m += bears.slope * slope_Pa_m, outside.p_Pa += p_Pa;
+      sum.p_Pa += bears.p * p_Pa, sum.slope_Pa_m += bears.slope * slope_Pa_m, outside.p_Pa += p_Pa,
+          outside.slope_Pa_m += slope_Pa_m;
     };
     // Inside a sleeve it has no contact; when it starts to touch, skin and struts yield slightly.
     const double meets = sleeved ? std::clamp(1 + (lumen_m(in, s, i) - in.sleeve.inner_m[i]) / soft_m, 0.0, 1.0) : 1;
@@ -262,7 +265,7 @@ BalloonReport step(const BalloonModel& m, const PlaqueModel& plaque, const Ballo
       pressed += w.p_Pa * 2 * pi * a * ds;
       if (const double off = s.aside_m[i].norm(); off > 0) aside -= x.back_N_m[i] * ds / off * s.aside_m[i];
     }
-    flatten(outside.p_Pa, in, dt, i, s);
+    flatten(outside, in, dt, i, s);
     const double N = std::max(0.0, s.pressure_Pa) * a / 2 / (ds * ds), c = m.viscous_Pa_s_m / dt;
     x.below[i] = i > 0 ? -N : 0, x.above[i] = i + 1 < n ? -N : 0;
     x.middle[i] = c + sum.slope_Pa_m - x.below[i] - x.above[i];

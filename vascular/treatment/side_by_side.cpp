@@ -23,11 +23,33 @@ Equal flattened(double beta) {
   return {rho, 2 * pi * rho + 4 * rho * c, beta > 0 ? rho * area_1_rad / length_1_rad : 0};
 }
 
-constexpr int steps = 64;
-using Table = std::array<double, steps + 1>;  // of the tension, at equal steps of beta
-Table tensions() {
+/// The lumen's radius where they are free (H), and where they are squeezed to the end.
+struct Limits {
+  double hull_m, round_m;
+};
+Limits limits(double a, double b) {
+  static const double k = std::log(2) / std::log(flattened(pi / 2).length / (2 * pi));
+  const double t = std::asin((a - b) / (a + b)), most = std::max(a, b);
+  return {(pi * (a + b) + 2 * t * (a - b) + 4 * std::sqrt(a * b)) / (2 * pi),
+          most * std::pow(std::pow(a / most, k) + std::pow(b / most, k), 1 / k)};
+}
+/// How much of the way from there is left.
+double left(const Equal& now) {
+  static const double free_m = flattened(0).length, round_m = flattened(pi / 2).length;
+  return (now.length - round_m) / (free_m - round_m);
+}
+
+constexpr int steps = 64;  // of beta, to pi / 2
+struct Step {
+  double tension, left;
+};
+using Table = std::array<Step, steps + 1>;
+Table make_table() {
   Table table;
-  for (int i = 0; i <= steps; ++i) table[i] = flattened(pi / 2 * i / steps).tension;
+  for (int i = 0; i <= steps; ++i) {
+    const Equal at = flattened(pi / 2 * i / steps);
+    table[i] = {at.tension, left(at)};
+  }
   return table;
 }
 
@@ -35,28 +57,36 @@ Table tensions() {
 
 SideBySide side_by_side(double a, double b, double beta) {
   if (b <= 0) return {a, 1, 1, 0};
-  static const double free_m = flattened(0).length / (2 * pi), round_m = flattened(pi / 2).length / (2 * pi),
-                      k = std::log(2) / std::log(round_m);
+  static const double k = std::log(2) / std::log(flattened(pi / 2).length / (2 * pi));
   const Equal equal = flattened(beta);
-  const double keeps = (equal.length / (2 * pi) - round_m) / (free_m - round_m);
-  const double t = std::asin((a - b) / (a + b)), most = std::max(a, b);
-  const double hull = (pi * (a + b) + 2 * t * (a - b) + 4 * std::sqrt(a * b)) / (2 * pi),
-               hull_by_a = (pi + 2 * t + 2 * std::cos(t)) / (2 * pi);
-  const double round = most * std::pow(std::pow(a / most, k) + std::pow(b / most, k), 1 / k),
-               round_by_a = std::pow(a / round, k - 1);
-  return {.lumen_m = keeps * hull + (1 - keeps) * round,
-          .by_a = keeps * hull_by_a + (1 - keeps) * round_by_a,
-          .narrow = 1 / (1 + std::cos(beta) * std::min(a, b) / most),
+  const Limits end = limits(a, b);
+  const double t = std::asin((a - b) / (a + b)), share = left(equal);
+  const double hull_by_a = (pi + 2 * t + 2 * std::cos(t)) / (2 * pi), round_by_a = std::pow(a / end.round_m, k - 1);
+  return {.lumen_m = share * end.hull_m + (1 - share) * end.round_m,
+          .by_a = share * hull_by_a + (1 - share) * round_by_a,
+          .narrow = 1 / (1 + std::cos(beta) * std::min(a, b) / std::max(a, b)),
           .apart_m = (a + b) * equal.arc * std::cos(beta)};
 }
 
-double flattened_rad(double tension) {
-  static const Table table = tensions();
-  if (!(tension > 0)) return 0;
-  const auto above = std::upper_bound(table.begin(), table.end(), tension);
-  if (above == table.end()) return pi / 2;
-  const double share = (tension - above[-1]) / (above[0] - above[-1]);
-  return pi / 2 * (static_cast<double>(above - table.begin() - 1) + share) / steps;
+double flattened_rad(double a, double b, double filled_Pa, const DrawnBy& wall) {
+  static const Table table = make_table();
+  const Limits end = limits(a, b);
+  // Above 0 where the balloons push harder apart than the wall draws them together.
+  const auto over = [&](int i) {
+    const double R = table[i].left * end.hull_m + (1 - table[i].left) * end.round_m;
+    return (a + b) / 2 * filled_Pa * table[i].tension -
+           R * std::max(0.0, wall.p_Pa + wall.slope_Pa_m * (R - wall.lumen_m));
+  };
+  int below = 0, above = steps;
+  double under = over(0), beyond = over(steps);
+  if (under >= 0) return 0;
+  if (beyond <= 0) return pi / 2;
+  while (above - below > 1) {
+    const int middle = (below + above) / 2;
+    const double there = over(middle);
+    (there < 0 ? below : above) = middle, (there < 0 ? under : beyond) = there;
+  }
+  return pi / 2 * (below + under / (under - beyond)) / steps;
 }
 
 double drawn_round(double balloon, double lumen) {

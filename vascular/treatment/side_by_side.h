@@ -26,8 +26,13 @@ struct SideBySide {
 };
 /// `flat_rad`: beta, [0, pi / 2]. Where b is 0 there is one round balloon.
 SideBySide side_by_side(double a_m, double b_m, double flat_rad);
-/// The angle beta at rest; `tension`: T / (p (a + b) / 2), any number: it ends at a round lumen.
-double flattened_rad(double tension);
+/// What draws them together: the wall's pressure at a lumen's radius, and its slope, from which it is not far.
+struct DrawnBy {
+  double p_Pa = 0, slope_Pa_m = 0, lumen_m = 0;
+};
+/// The angle beta at which two, filled to a pressure above 0, are at rest in that wall: the root of
+///   (a + b) / 2 p A' / L' = T(R(beta)),   T(R) = R (p_Pa + slope (R - lumen))
+double flattened_rad(double a_m, double b_m, double filled_Pa, const DrawnBy& wall);
 
 /// The narrow diameter over the wide one, at least, of a ring of which one round balloon fills a part: its perimeter is
 /// drawn round the balloon and straight beyond. `lumen_m`: as above.

@@ -14,7 +14,8 @@ namespace ostium::vascular {
 namespace {
 
 using units::pi;
-constexpr int relaxations = 3;  // rounds per step
+constexpr double yields_from = 0.9;  // of the strain at which it does
+constexpr int relaxations = 3;       // rounds per step
 
 double half_chord(const StentModel& m, double r) { return 2 * r * std::sin(pi / (2 * m.crowns)); }
 
@@ -176,8 +177,8 @@ void move_rings(const StentModel& m, const PlaqueModel& plaque, const StentInput
     const double alone = r - (own.p_Pa + outside.p_Pa) / (c + own.slope_Pa_m + outside.slope_Pa_m);
     any_on = any_on || a >= alone;
     r = std::max(alone, a);
-    // It takes the shape of what opens it; one round balloon in it makes it rounder.
-    if (r == a) s.narrow[k] = opened.narrow;
+    // While it yields it takes the shape of what opens it; one round balloon in it makes it rounder.
+    if (r == a && r > (1 + yields_from * m.yield) * s.rest_m[k]) s.narrow[k] = opened.narrow;
     if (a > 0 && opened.narrow == 1) s.narrow[k] = std::max(s.narrow[k], drawn_round(a, r));
     s.rest_m[k] = std::clamp(s.rest_m[k], r / (1 + m.yield), r / (1 - m.yield));
     s.peak_m[k] = std::max(s.peak_m[k], r);

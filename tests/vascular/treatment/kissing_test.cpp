@@ -64,17 +64,24 @@ double area_of_two(double beta) {
   return 2 * area;
 }
 
+/// A wall of that tension whatever its length, near the angle.
+DrawnBy drawn_with(double tension, double beta) {
+  const double R = side_by_side(1, 1, beta).lumen_m;
+  return {tension / R, -tension / (R * R), R};
+}
+
 TEST(SideBySide, TheirPressureDoesTheWorkOfTheWallsTension) {
   const double h = 1e-4;
   for (const double beta : {0.3, 0.8, 1.2, 1.5}) {
     const auto length = [](double angle) { return 2 * pi * side_by_side(1, 1, angle).lumen_m; };
     const double tension = (area_of_two(beta + h) - area_of_two(beta - h)) / (length(beta + h) - length(beta - h));
-    EXPECT_NEAR(flattened_rad(tension), beta, 2e-3) << beta;
+    EXPECT_NEAR(flattened_rad(1, 1, 2, drawn_with(2 * tension, beta)), beta, 2e-3) << beta;
+    EXPECT_NEAR(flattened_rad(1, 1, 2, {0, 1e3, side_by_side(1, 1, beta).lumen_m}), beta, 2e-2) << "all but rigid";
   }
   const double rho = pi / (pi / 2 + 1);
-  EXPECT_NEAR(flattened_rad(0.999 * rho), pi / 2, 0.03) << "T = p rho: one round lumen, by Laplace";
-  EXPECT_EQ(flattened_rad(2 * rho), pi / 2);
-  EXPECT_EQ(flattened_rad(-1), 0);
+  EXPECT_NEAR(flattened_rad(1, 1, 1, drawn_with(0.999 * rho, pi / 2)), pi / 2, 0.03) << "T = p rho: Laplace";
+  EXPECT_EQ(flattened_rad(1, 1, 1, drawn_with(2 * rho, pi / 2)), pi / 2);
+  EXPECT_EQ(flattened_rad(1, 1, 1, {}), 0);
 }
 
 /// A left main of 4.0 mm that forks into 3.2 and 2.8 mm, without plaque, in a phantom.
@@ -166,7 +173,8 @@ TEST(Kissing, LeavesAnOvalStentThatOneLargeBalloonRounds) {
     std::printf("\n");
   };
   show("under");
-  for (int i = 0; i < 64; i += 3) std::printf(" %.2f:%.2f", f.state.balloons[0].flat_rad[i], 2e3 * f.state.balloons[0].radius_m[i]);
+  for (int i = 0; i < 64; i += 3)
+    std::printf(" %.2f:%.2f", f.state.balloons[0].flat_rad[i], 2e3 * f.state.balloons[0].radius_m[i]);
   std::printf("\n");
   f.run(-1, 9), f.inputs.balloons = {}, f.run(0, 0.05);
   show("after");
