@@ -51,6 +51,7 @@ constexpr TestOfKind tests[] = {
     {Kind::out,
      [](const Evaluator& e, const Condition& c, int) { return !e.report.tools.empty() && !e.tool(c.tool).in_body; }},
     {Kind::balloon_at, [](const Evaluator& e, const Condition& c, int) { return e.balloon_is_at(c); }},
+    {Kind::distal_marker_at, [](const Evaluator& e, const Condition& c, int) { return e.balloon_is_at(c); }},
     {Kind::balloon_within,
      [](const Evaluator& e, const Condition& c, int) { return heart_rests(e.session) && e.measured(c) <= c.value; }},
     {Kind::balloon_open,
@@ -118,6 +119,8 @@ constexpr MeasureOfKind measures[] = {
        return balloon_beyond_lesion_m(e.model, e.session, c.lesion, e.balloon_tool())
            .value_or(std::numeric_limits<double>::quiet_NaN());
      }},
+    {Kind::distal_marker_at, Settled::by_test,
+     [](const Evaluator& e, const Condition& c) { return e.distal_marker_beyond_m(c.place); }},
     {Kind::balloon_clear, Settled::at_least,
      [](const Evaluator& e, const Condition&) { return e.balloon_beyond_guide_m(); }},
     {Kind::flow_below, Settled::below,
@@ -295,6 +298,18 @@ bool ConditionEvaluator::balloon_is_at(const data::ScriptCondition& c) const {
   const double at_m = measured(c);
   const BalloonInBody own = balloon();
   return own && (comes_in(own.place->tool) ? at_m >= c.value : at_m <= c.value);
+}
+
+double ConditionEvaluator::distal_marker_beyond_m(const std::string& branch) const {
+  const vascular::FlowTree& tree = model.physiology.flow.tree;
+  const BalloonInBody own = balloon();
+  const int b = tree.branch(branch);
+  if (!own || own.place->branch < 0 || b < 0) return std::numeric_limits<double>::quiet_NaN();
+  const vascular::VesselPath& path = model.treatment.paths[index(own.place->branch)];
+  const auto at = std::find(path.cells.begin(), path.cells.end(), tree.branches[index(b)].parent_cell);
+  if (at == path.cells.end()) return std::numeric_limits<double>::quiet_NaN();
+  const double leaves_m = path.s_m[static_cast<std::size_t>(at - path.cells.begin())];
+  return own.state->seat_m + model_of(own).length_m / 2 - leaves_m;
 }
 
 /// Of its proximal marker from the guide's tip; NaN: no balloon is in the body.

@@ -41,6 +41,8 @@ class ConditionEvaluator {
   bool balloons_are_empty() const;               ///< that of the step's tool, or all in the body
   double balloon_from_lesion(int lesion) const;  ///< m; NaN: not in its artery
   int balloon_tool() const;                      ///< the step's tool, if it carries one; -1
+  /// Of its distal marker from where a branch leaves its parent, m; NaN: it does not lie along that.
+  double distal_marker_beyond_m(const std::string& branch) const;
   bool balloon_is_at(const data::ScriptCondition& condition) const;
   double balloon_beyond_guide_m() const;
   bool guide_is_in(int branch) const;

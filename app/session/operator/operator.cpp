@@ -74,6 +74,8 @@ int place_of(const data::Script& script, const data::ScriptCondition& c, const S
         refuse(c, c.words + ": expected an artery that leaves the aorta, LM or RCA");
       return place;
     case data::ConditionValue::branch:
+      if (c.kind == data::ConditionKind::distal_marker_at && tree.branch(c.place) < 0)
+        refuse(c, c.words + ": expected a branch of the coronary arteries");
       place = way.entry(c.place);
       break;
     case data::ConditionValue::place:

@@ -14,7 +14,7 @@ using Kind = data::ConditionKind;
 
 bool needs_balloon(Kind kind) {
   return kind == Kind::balloon_at || kind == Kind::balloon_within || kind == Kind::balloon_spans ||
-         kind == Kind::balloon_clear || kind == Kind::balloon_open;
+         kind == Kind::balloon_clear || kind == Kind::balloon_open || kind == Kind::distal_marker_at;
 }
 
 bool needs_tool_in_body(Kind kind) {

@@ -31,6 +31,7 @@ enum class ConditionKind {
   balloon_at,
   balloon_within,
   balloon_spans,
+  distal_marker_at,
   balloon_clear,
   balloon_open,
   balloon_empty,
@@ -135,6 +136,9 @@ inline constexpr ConditionRow condition_rows[] = {
     {ConditionKind::balloon_spans, "balloon_spans_mm", ConditionValue::number, ConditionOf::lesion, condition_units::mm, {}, "",
      "both markers lie so far beyond the lesion's ends, or, if negative, short of them by no more, at this moment of the "
      "beat, in mm"},
+    {ConditionKind::distal_marker_at, "distal_marker_at", ConditionValue::branch, ConditionOf::patient, 0, {}, "beyond_mm",
+     "the name of a coronary branch: the balloon's distal marker has come, from either side, so far beyond the place where "
+     "that leaves its parent; judged while the heart rests"},
     {ConditionKind::balloon_clear, "balloon_clear_of_guide_mm", ConditionValue::number, ConditionOf::patient, condition_units::mm, above_zero, "",
      "its proximal marker is so far out of the guide, or the guide is out of the body, in mm, > 0"},
     {ConditionKind::balloon_open, "balloon_open", ConditionValue::only_true, ConditionOf::patient, 0, {}, "",
@@ -210,6 +214,11 @@ struct ConditionCompanion {
 };
 inline constexpr ConditionCompanion condition_companions[] = {
     {"by_mm", true, condition_units::mm, above_zero, "how far from the line of that branch, in mm, > 0"},
+    {"beyond_mm",
+     true,
+     condition_units::mm,
+     {},
+     "how far, along the artery that the balloon lies in, in mm, distal is positive"},
     {"within_deg", true, condition_units::deg, above_zero_to(90), "how exactly, in degrees, > 0 and at most 90"},
     {"if_there", false, 0, {}, "true or false, true: where the vessel has no such place, no tip is in it"}};
 
