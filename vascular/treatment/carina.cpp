@@ -52,7 +52,8 @@ std::vector<Fork> make_forks(const FlowTree& tree, const LumenMap& map, const st
                           into_main = (centre(ahead(tree, fork.main_cell, looks_ahead_m)) - from).normalized(),
                           into_side = (centre(ahead(tree, fork.side_cell, looks_ahead_m)) - from).normalized();
     fork.cosine = std::max(0.0, into_main.dot(into_side));
-    const VesselPath& path = paths[static_cast<std::size_t>(tree.cells[static_cast<std::size_t>(fork.main_cell)].branch)];
+    const VesselPath& path =
+        paths[static_cast<std::size_t>(tree.cells[static_cast<std::size_t>(fork.main_cell)].branch)];
     const auto at = std::find(path.cells.begin(), path.cells.end(), side.parent_cell);
     if (at == path.cells.end()) continue;
     const PathFrame frame = frame_at(map, path, path.s_m[static_cast<std::size_t>(at - path.cells.begin())], {});

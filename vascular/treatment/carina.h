@@ -5,9 +5,9 @@
 /// pushes the edge aside by what it is wider,
 ///   x = 2 (b - r) cos(angle between the daughters)
 /// into the other's mouth, whose short axis loses x while the long one stays. A balloon in the other pushes it back;
-/// with one in each it lies where both push as far. It stays where it was left, as stent and wall hold it. Where a stent
-/// holds the mouth, it does not narrow. [rule: carina shift in 39 of 40 crossed branches, PMID 23592548; the factor is
-/// geometry, an estimate as a whole]
+/// with one in each it lies where both push as far. It stays where it was left, as stent and wall hold it. Where a
+/// stent holds the mouth, it does not narrow. [rule: carina shift in 39 of 40 crossed branches, PMID 23592548; the
+/// factor is geometry, an estimate as a whole]
 #include "vascular/contrast/lumen_map.h"
 #include "vascular/flow/flow_tree.h"
 #include "vascular/treatment/balloon.h"

@@ -1,6 +1,7 @@
 #include "vascular/treatment/devices.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "vascular/treatment/side_by_side.h"
 
@@ -8,7 +9,9 @@ namespace ostium::vascular {
 
 namespace {
 
-constexpr double endless_m = 1;  // longer than any path
+constexpr double endless_m = 1;                  // longer than any path
+constexpr double least_sine2 = 0.1;              // of branches that hardly part
+constexpr double pushes_from_Pa = 0.5 * 101325;  // with less in it a balloon moves no carina
 
 const BalloonModel* balloon_of(const TreatmentModel& model, const PlacedBalloon& placed) {
   return placed.balloon >= 0 ? &model.balloons[placed.balloon] : nullptr;
@@ -63,6 +66,21 @@ void spill(const VesselPath& path, double middle_m, double spilt_m3, double iodi
   const double kg = spilt_m3 * iodine_kg_m3;
   for (int k = 0; k < layers; ++k) contrast.sheath_kg[k * cells + cell] += kg / layers;
   contrast.injected_kg += kg, contrast.injected_m3 += spilt_m3;
+}
+
+/// Where a balloon leaves the vessel that it shares with a stent, through the stent's wall.
+ThroughCell way_through(const TreatmentModel& model, const PlacedBalloon& placed, const BalloonState& state,
+                        double leaves_m) {
+  const VesselPath& path = *path_of(model, placed);
+  const int first = path.at(leaves_m).index + 1;
+  if (first >= static_cast<int>(path.cells.size())) return {};
+  for (const Fork& fork : model.forks)
+    if (fork.side_cell == path.cells[static_cast<std::size_t>(first)])
+      return {.radius_m = radius_at(*balloon_of(model, placed), state, path.s_m[static_cast<std::size_t>(first)]),
+              .at_m = leaves_m,
+              .angle_rad = fork.angle_rad,
+              .longer = 1 / std::sqrt(std::max(least_sine2, 1 - fork.cosine * fork.cosine))};
+  return {};
 }
 
 }  // namespace
@@ -136,11 +154,35 @@ void step_stents(const TreatmentModel& model, const TreatmentInputs& in, const T
       if (beside_to_m >= 0) inputs.edge_N = in.edge_N;
       if (placed.balloon >= 0 && !report.blocked[k] && (mine || beside_to_m >= 0))
         inside[count++] = {balloon_of(model, placed), &s.balloons[k], mine ? endless_m : beside_to_m};
+      if (placed.balloon >= 0 && !report.blocked[k] && beside_to_m >= 0 && beside_to_m < endless_m)
+        inputs.through = way_through(model, placed, s.balloons[k], beside_to_m);
     }
     if (stent.where == StentState::lost || (stent.where == StentState::on_balloon && !carried)) continue;
     inputs.path = stent.branch >= 0 ? &model.paths[static_cast<std::size_t>(stent.branch)] : nullptr;
     inputs.inside = {inside.data(), count};
     step(model.stents[i], model.plaque, inputs, dt, stent, s.wall);
+  }
+}
+
+void move_carinas(const TreatmentModel& model, const TreatmentInputs& in, const TreatmentReport& report,
+                  const FlowTree& tree, TreatmentState& s) {
+  for (std::size_t f = 0; f < model.forks.size(); ++f) {
+    AtFork there;
+    for (int k = 0; k < most_balloons; ++k) {
+      const BalloonModel* balloon = balloon_of(model, in.balloons[k]);
+      const VesselPath* path = path_of(model, in.balloons[k]);
+      if (!balloon || !path || report.blocked[k] || s.balloons[k].pressure_Pa < pushes_from_Pa) continue;
+      const auto radius_in = [&](int cell) {
+        const auto at = std::find(path->cells.begin(), path->cells.end(), cell) - path->cells.begin();
+        return at == std::ssize(path->cells)
+                   ? 0.0
+                   : radius_at(*balloon, s.balloons[k], path->s_m[static_cast<std::size_t>(at)]);
+      };
+      there.main_m = std::max(there.main_m, radius_in(model.forks[f].main_cell));
+      there.side_m = std::max(there.side_m, radius_in(model.forks[f].side_cell));
+    }
+    if (there.main_m > 0 || there.side_m > 0)
+      s.carina_m[f] = shifted_carina_m(tree, model.forks[f], there, s.carina_m[f]);
   }
 }
 

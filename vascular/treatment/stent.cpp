@@ -92,8 +92,13 @@ StentState make_stent_state(const StentModel& m) {
   for (int k = 0; k < m.rings; ++k)
     for (int j = 0; j < 2 * m.crowns; ++j)
       s.along_m.push_back((k - (m.rings - 1) / 2.0) * m.pitch_m() + (j % 2 ? 0.5 : -0.5) * m.height_m);
+  s.turned_rad.assign(m.points(), 0);
   s.ties.assign(m.points(), {});
   return s;
+}
+
+double angle_of(const StentModel& m, const StentState& s, int point) {
+  return pi * (point % (2 * m.crowns)) / m.crowns + s.turned_rad[static_cast<std::size_t>(point)];
 }
 
 std::pair<double, double> span_of(const StentState& s) {
@@ -212,6 +217,21 @@ void settle_points(const StentModel& m, StentState& s) {
   }
 }
 
+/// Points in the way of a balloon through a cell go to its edge, along the wall.
+void open_cell(const StentModel& m, const ThroughCell& in, StentState& s) {
+  if (in.radius_m <= 0) return;
+  const int around = 2 * m.crowns;
+  for (int p = 0; p < m.points(); ++p) {
+    const double r = s.radius_m[p / around];
+    const double x = (s.middle_m + s.shift_m + s.along_m[p] - in.at_m) / in.longer,
+                 y = r * std::remainder(angle_of(m, s, p) - in.angle_rad, 2 * pi), off = std::hypot(x, y);
+    if (off >= in.radius_m) continue;
+    const double to = off > 1e-9 ? in.radius_m / off : 0;
+    s.along_m[p] += to > 0 ? (to - 1) * x * in.longer : in.radius_m * in.longer;
+    s.turned_rad[p] += to > 0 ? (to - 1) * y / r : 0;
+  }
+}
+
 /// An edge pushes the stent distally: rings are pressed together one after another, permanently.
 void crush(const StentModel& m, const StentInputs& in, StentState& s) {
   if (in.edge_N < m.crush_N) return;
@@ -249,6 +269,7 @@ void step(const StentModel& m, const PlaqueModel& plaque, const StentInputs& in,
   move_rings(m, plaque, in, dt, s, wall);
   if (s.where == StentState::deployed) crush(m, in, s);
   settle_points(m, s);
+  if (s.where == StentState::deployed) open_cell(m, in.through, s);
   if (!in.path) return;
   const auto [first, last] = span_of(s);
   for (std::size_t k = 0; k < in.path->cells.size(); ++k) {

@@ -9,8 +9,6 @@
 
 namespace ostium::vascular {
 
-double angle_of(const StentModel& m, int j) { return units::pi * j / m.crowns; }
-
 namespace {
 
 /// How much nearer to its middle than a round ring of its length a ring lies at an angle: an ellipse, narrow across.
@@ -24,7 +22,7 @@ double flat_m(const StentState& s, int ring, double angle) {
 
 double gap_of(const StentModel& m, const StentState& s, const VesselPath& path, const PlaqueState& wall, int point) {
   const int around = 2 * m.crowns, ring = point / around;
-  const double at = s.middle_m + s.shift_m + s.along_m[point], angle = angle_of(m, point % around);
+  const double at = s.middle_m + s.shift_m + s.along_m[point], angle = angle_of(m, s, point);
   const double room = path.value(wall.radius_m, at) - s.radius_m[ring] - m.strut_m;
   if (room <= 0) return 0;
   // A wall that is hardly longer than the ring bulges only as far as an arc on a chord.
@@ -106,7 +104,7 @@ std::vector<Eigen::Vector3d> points_on_path(const StentModel& m, const StentStat
 Eigen::Vector3d point_on_path(const StentModel& m, const StentState& s, const PathFrames& frames, int i) {
   const int around = 2 * m.crowns;
   const PathFrame f = frames.at(s.middle_m + s.shift_m + s.along_m[i]);
-  const double a = angle_of(m, i % around), r = s.radius_m[i / around] + m.strut_m / 2;
+  const double a = angle_of(m, s, i), r = s.radius_m[i / around] + m.strut_m / 2;
   return f.centre + r * (std::cos(a) * f.side + std::sin(a) * f.up);
 }
 

@@ -52,8 +52,6 @@ std::vector<Eigen::Vector3d> points_on_wall(const StentModel& model, const Stent
                                             const WallShape& shape, std::span<const double> radius_m,
                                             const LumenMoment& moment);
 
-/// Angle of point j of a ring; the first crown is at the side direction of the path's frame.
-double angle_of(const StentModel& model, int j);
 /// Gap between the middle of a strut at one point and the wall's surface, less half its thickness. A stent too small
 /// for its vessel lies against one side: its gap is 0 there, and twice the mean on the opposite side. One that is not
 /// round leaves a gap where it is narrow.

@@ -11,6 +11,7 @@ namespace ostium::vascular {
 namespace {
 
 constexpr double searched_m = 3e-3;  ///< beyond a ring and the vessel's radius
+constexpr double moved_m = 0.1e-3;   ///< that a point may go until its ring is tied anew
 
 /// The cell that a triangle belongs to: that of its first corner in a coronary artery; -1 in the aorta.
 int cell_of(const LumenMap& map, const std::array<int, 3>& triangle) {
@@ -36,6 +37,18 @@ std::pair<double, double> weights_at(const Eigen::Vector3d& p, const Eigen::Vect
   return {(vv * wu - uv * wv) / d, (uu * wv - uv * wu) / d};
 }
 
+/// Whether every point of the ring that begins there is tied where it is now.
+bool hangs(const StentModel& m, const StentState& s, int begin) {
+  const int around = 2 * m.crowns;
+  for (int i = begin; i < begin + around; ++i) {
+    const StentTie& tie = s.ties[static_cast<std::size_t>(i)];
+    if (tie.triangle == StentTie::untied ||
+        std::hypot(s.along_m[i] - tie.along_m, s.radius_m[i / around] * (s.turned_rad[i] - tie.turned_rad)) > moved_m)
+      return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 StentTies::StentTies(const Patient& patient, const WallShape& shape, const LumenMap& map, const FlowTree& tree)
@@ -55,7 +68,7 @@ bool StentTies::tie_next(const StentModel& m, const VesselPath& path, const Plaq
                          const LumenMoment& moment, StentState& s) const {
   const int around = 2 * m.crowns;
   int begin = 0;
-  while (begin < m.points() && s.ties[static_cast<std::size_t>(begin)].triangle != StentTie::untied) begin += around;
+  while (begin < m.points() && hangs(m, s, begin)) begin += around;
   if (begin == m.points()) return false;
   const double least_m = *std::min_element(s.along_m.begin() + begin, s.along_m.begin() + begin + around);
   const PathFrames frames(map_, path, s.middle_m + s.shift_m + least_m, moment);
@@ -85,7 +98,7 @@ bool StentTies::tie_next(const StentModel& m, const VesselPath& path, const Plaq
         if (distance_m >= best.distance_m) continue;
         const auto [u, v] = weights_at(q, a, b, c);
         best.distance_m = distance_m;
-        s.ties[static_cast<std::size_t>(begin + j)] = {triangles_[k], u, v, 0};
+        s.ties[static_cast<std::size_t>(begin + j)] = {triangles_[k], u, v};
       }
     }
   }
@@ -93,6 +106,7 @@ bool StentTies::tie_next(const StentModel& m, const VesselPath& path, const Plaq
     StentTie& tie = s.ties[static_cast<std::size_t>(begin + j)];
     if (tie.triangle == StentTie::untied) tie.triangle = StentTie::out_of_reach;
     tie.depth_m = m.strut_m / 2 + gap_of(m, s, path, wall, begin + j);
+    tie.along_m = s.along_m[begin + j], tie.turned_rad = s.turned_rad[begin + j];
   }
   return true;
 }

@@ -13,8 +13,8 @@ class StentTies {
   /// Keeps references.
   StentTies(const Patient& patient, const WallShape& shape, const LumenMap& map, const FlowTree& tree);
 
-  /// Ties the next ring of a deployed stent to the wall, both in their present shape. False if every ring has been
-  /// tied. Does not allocate.
+  /// Ties the next ring of a deployed stent, or one whose points have moved along the wall since, to the wall, both in
+  /// their present shape. False if every ring is tied where it is. Does not allocate.
   bool tie_next(const StentModel& model, const VesselPath& path, const PlaqueState& wall, const LumenMoment& moment,
                 StentState& state) const;
 

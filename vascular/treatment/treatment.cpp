@@ -14,6 +14,7 @@ namespace {
 constexpr double pool_m3 = 1.5e-6;               // blood beside a hole
 constexpr double muscle_opens_s = 20;            // under the full effect of a drug [estimate: onset 30 to 60 s]
 constexpr double tight_m = 20e-6;                // a balloon with less play lies on the wall
+constexpr double least_shift_m = 1e-6;           // of a carina
 constexpr double closed_m = 1e-6;                // radius of a branch that is shut
 constexpr double flap_m = 5e-3;                  // half of a flap's length [estimate]
 constexpr double fills_from = 0.85;              // of an artery's radius, from which a guide fills it [estimate]
@@ -157,6 +158,23 @@ void close_branches(const TreatmentModel& model, const FlowTree& tree, const Tre
       physiology.radius_m[static_cast<std::size_t>(branch.first)] = closed_m;
 }
 
+/// A carina in a branch's mouth narrows it, less and less along it, where no stent holds it.
+void narrow_mouths(const TreatmentModel& model, const FlowTree& tree, const TreatmentState& s,
+                   PhysiologyState& physiology) {
+  for (std::size_t f = 0; f < model.forks.size(); ++f) {
+    if (std::fabs(s.carina_m[f]) < least_shift_m) continue;
+    const int first = s.carina_m[f] > 0 ? model.forks[f].side_cell : model.forks[f].main_cell;
+    if (is_stented(model, s, first)) continue;
+    const int last = tree.branches[static_cast<std::size_t>(tree.cells[static_cast<std::size_t>(first)].branch)].last;
+    for (int c = first; c < last; ++c) {
+      const double way = (tree.s_of(c) - tree.s_of(first)) / mouth_m;
+      if (way >= 1) break;
+      double& radius_m = physiology.radius_m[static_cast<std::size_t>(c)];
+      radius_m *= mouth_left(radius_m, (1 - way) * std::fabs(s.carina_m[f]));
+    }
+  }
+}
+
 void provoke(const TreatmentModel& model, const FlowTree& tree, const Provocation& what, TreatmentState& s,
              PhysiologyState& physiology) {
   const double time_s = physiology.heart.time_s;
@@ -225,6 +243,7 @@ TreatmentState make_state(const TreatmentModel& model, const FlowTree& tree) {
   }
   s.balloon_in.fill(-1);
   for (const StentModel& stent : model.stents) s.stents.push_back(make_stent_state(stent));
+  s.carina_m.assign(model.forks.size(), 0);
   s.spasm.assign(tree.branches.size(), 0);
   s.drugs = make_state(model.drugs);
   return s;
@@ -251,6 +270,7 @@ TreatmentReport step(const TreatmentModel& model, const TreatmentInputs& in, dou
     if (in.balloons[k].balloon >= 0 && !report.blocked[k])
       report.balloons[k] = inflate(model, in, report, k, dt, s, vessels, x);
   step_stents(model, in, report, dt, s);
+  move_carinas(model, in, report, vessels.flow.tree, s);
   if (in.wire_tip_cell >= 0)
     judge_wire(model.injury, in.wire_tip_cell, s.wall.radius_m[in.wire_tip_cell], in.wire_tip_N, dt,
                vessels.physiology.heart.time_s, s.injury);
@@ -261,6 +281,7 @@ TreatmentReport step(const TreatmentModel& model, const TreatmentInputs& in, dou
   fill_lumen(model, in, report, s, vessels);
   if (s.injury.count > 0) narrow_by_flaps(model, vessels.occupied_m, s);
   set_radii(model, vessels.flow.tree, s, vessels.physiology);
+  narrow_mouths(model, vessels.flow.tree, s, vessels.physiology);
   close_branches(model, vessels.flow.tree, s, vessels.physiology);
   clot(model, in, dt, s, vessels);
   if (s.injury.count > 0) cover_holes(model, vessels.occupied_m, vessels.physiology, s);

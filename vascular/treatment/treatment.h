@@ -2,6 +2,7 @@
 /// Treatment of the arteries: balloons, stents, the wall under them, injuries, drugs. Stepped before the physiology
 /// (physiology.h), whose radii and occupied lumen it sets.
 #include "vascular/physiology/physiology.h"
+#include "vascular/treatment/carina.h"
 #include "vascular/treatment/drugs.h"
 #include "vascular/treatment/injury.h"
 #include "vascular/treatment/stent_shape.h"
@@ -18,6 +19,7 @@ struct TreatmentModel {
   std::vector<StentModel> stents;      ///< likewise
   std::vector<int> stent_on;           ///< (#balloons) stent crimped on it, or -1
   std::vector<VesselPath> paths;       ///< all_paths of the flow tree
+  std::vector<Fork> forks = {};        ///< whose carinas move and where stents' cells open; may be none
 };
 
 /// A complication that a trainer asks for.
@@ -65,6 +67,7 @@ struct TreatmentState {
   std::array<BalloonState, most_balloons> balloons;
   std::array<int, most_balloons> balloon_in;  ///< index in the model; -1: none yet
   std::vector<StentState> stents;             ///< (#stents), including crimped ones
+  std::vector<double> carina_m;               ///< (#forks) how far it lies in the side branch's mouth (carina.h)
   std::vector<double> spasm;                  ///< (#branches) [0, 1): of the diameter; may be set from outside
   InjuryState injury;
   ThrombusState thrombus;
@@ -77,6 +80,7 @@ constexpr auto fields(const TreatmentState*) {
                     core::field("balloons", &S::balloons),
                     core::field("balloon_in", &S::balloon_in),
                     core::field("stents", &S::stents),
+                    core::field("carina_m", &S::carina_m),
                     core::field("spasm", &S::spasm),
                     core::field("injury", &S::injury),
                     core::field("drugs", &S::drugs),

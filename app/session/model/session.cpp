@@ -248,13 +248,11 @@ void hold_shafts(const SessionModel& model, const SessionState& state, core::Inp
 void tie_stents(const SessionModel& model, SessionState& state) {
   for (std::size_t n = 0; n < state.treatment.stents.size(); ++n) {
     vascular::StentState& stent = state.treatment.stents[n];
-    if (stent.where != vascular::StentState::deployed || stent.branch < 0 ||
-        stent.ties.back().triangle != vascular::StentTie::untied)
-      continue;
-    model.vessel->coronaries->ties->tie_next(
-        model.treatment.stents[n], model.treatment.paths[static_cast<std::size_t>(stent.branch)], state.treatment.wall,
-        {.phase = state.blood.heart.phase, .aside_P = state.wall_aside_P}, stent);
-    return;
+    if (stent.where == vascular::StentState::deployed && stent.branch >= 0 &&
+        model.vessel->coronaries->ties->tie_next(
+            model.treatment.stents[n], model.treatment.paths[static_cast<std::size_t>(stent.branch)],
+            state.treatment.wall, {.phase = state.blood.heart.phase, .aside_P = state.wall_aside_P}, stent))
+      return;
   }
 }
 

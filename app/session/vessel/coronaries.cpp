@@ -41,6 +41,7 @@ std::unique_ptr<const Coronaries> make_coronaries(std::shared_ptr<const vascular
   Treatable plan =
       plan_treatment(*out->patient, out->physiology.flow, 0, {.stent = false, .predilate = false, .postdilate = false});
   out->treatment = std::move(plan.model), out->lesions = std::move(plan.plans);
+  out->treatment.forks = make_forks(out->tree(), out->map, out->treatment.paths);
   if (!out->lesions.empty()) {
     const Plan& first = out->lesions.front();
     const auto artery = out->tree().branches[static_cast<std::size_t>(first.branch)].territory;
