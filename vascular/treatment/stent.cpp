@@ -92,9 +92,14 @@ StentState make_stent_state(const StentModel& m) {
   for (int k = 0; k < m.rings; ++k)
     for (int j = 0; j < 2 * m.crowns; ++j)
       s.along_m.push_back((k - (m.rings - 1) / 2.0) * m.pitch_m() + (j % 2 ? 0.5 : -0.5) * m.height_m);
-  s.turned_rad.assign(m.points(), 0);
+  s.pushed_m.assign(m.points(), 0), s.turned_rad = s.pushed_m;
   s.ties.assign(m.points(), {});
   return s;
+}
+
+double place_of_m(const StentState& s, int point) {
+  const auto p = static_cast<std::size_t>(point);
+  return s.middle_m + s.shift_m + s.along_m[p] + s.pushed_m[p];
 }
 
 double angle_of(const StentModel& m, const StentState& s, int point) {
@@ -223,11 +228,11 @@ void open_cell(const StentModel& m, const ThroughCell& in, StentState& s) {
   const int around = 2 * m.crowns;
   for (int p = 0; p < m.points(); ++p) {
     const double r = s.radius_m[p / around];
-    const double x = (s.middle_m + s.shift_m + s.along_m[p] - in.at_m) / in.longer,
+    const double x = (place_of_m(s, p) - in.at_m) / in.longer,
                  y = r * std::remainder(angle_of(m, s, p) - in.angle_rad, 2 * pi), off = std::hypot(x, y);
     if (off >= in.radius_m) continue;
     const double to = off > 1e-9 ? in.radius_m / off : 0;
-    s.along_m[p] += to > 0 ? (to - 1) * x * in.longer : in.radius_m * in.longer;
+    s.pushed_m[p] += to > 0 ? (to - 1) * x * in.longer : in.radius_m * in.longer;
     s.turned_rad[p] += to > 0 ? (to - 1) * y / r : 0;
   }
 }

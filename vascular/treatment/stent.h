@@ -53,26 +53,34 @@ struct StentState {
   enum class Where { on_balloon, deployed, lost };
   using enum Where;
   Where where = on_balloon;
-  int branch = -1;                 ///< branch whose path contains it; -1: none. While crimped, that of its balloon
-  double middle_m = 0;             ///< along the path; while crimped, that of its balloon
-  double shift_m = 0;              ///< of the crimped stent relative to its balloon; negative: proximally
-  std::vector<double> radius_m;    ///< (#rings) inner
-  std::vector<double> rest_m;      ///< (#rings) R0
-  std::vector<double> along_m;     ///< (#points) from its middle, distally; by ring, then around it
-  std::vector<double> turned_rad;  ///< (#points) about the path, from where it was when crimped
-  std::vector<double> link_m;      ///< (#rings - 1) length of the links
-  std::vector<StentTie> ties;      ///< (#points)
-  std::vector<double> peak_m;      ///< (#rings) largest radius so far
-  std::vector<double> narrow;      ///< (#rings) narrow over wide diameter; 1: round
+  int branch = -1;               ///< branch whose path contains it; -1: none. While crimped, that of its balloon
+  double middle_m = 0;           ///< along the path; while crimped, that of its balloon
+  double shift_m = 0;            ///< of the crimped stent relative to its balloon; negative: proximally
+  std::vector<double> radius_m;  ///< (#rings) inner
+  std::vector<double> rest_m;    ///< (#rings) R0
+  std::vector<double> along_m;   ///< (#points) from its middle, distally; by ring, then around it
+  /// (#points) How far a balloon through a cell has pushed it, distally and about the path, for good.
+  std::vector<double> pushed_m, turned_rad;
+  std::vector<double> link_m;  ///< (#rings - 1) length of the links
+  std::vector<StentTie> ties;  ///< (#points)
+  std::vector<double> peak_m;  ///< (#rings) largest radius so far
+  std::vector<double> narrow;  ///< (#rings) narrow over wide diameter; 1: round
 };
 constexpr auto fields(const StentState*) {
   using S = StentState;
-  return std::tuple{core::field("where", &S::where),       core::field("branch", &S::branch),
-                    core::field("middle_m", &S::middle_m), core::field("shift_m", &S::shift_m),
-                    core::field("radius_m", &S::radius_m), core::field("rest_m", &S::rest_m),
-                    core::field("along_m", &S::along_m),   core::field("turned_rad", &S::turned_rad),
-                    core::field("link_m", &S::link_m),     core::field("ties", &S::ties),
-                    core::field("peak_m", &S::peak_m),     core::field("narrow", &S::narrow)};
+  return std::tuple{core::field("where", &S::where),
+                    core::field("branch", &S::branch),
+                    core::field("middle_m", &S::middle_m),
+                    core::field("shift_m", &S::shift_m),
+                    core::field("radius_m", &S::radius_m),
+                    core::field("rest_m", &S::rest_m),
+                    core::field("along_m", &S::along_m),
+                    core::field("pushed_m", &S::pushed_m),
+                    core::field("turned_rad", &S::turned_rad),
+                    core::field("link_m", &S::link_m),
+                    core::field("ties", &S::ties),
+                    core::field("peak_m", &S::peak_m),
+                    core::field("narrow", &S::narrow)};
 }
 StentState make_stent_state(const StentModel& model);
 
@@ -127,6 +135,8 @@ double area_of_ring_m2(const StentState& state, int ring);
 /// Smallest radius between two positions.
 double narrowest_m(const StentModel& model, const StentState& state, double from_m, double to_m);
 
+/// Position of a point along the path.
+double place_of_m(const StentState& state, int point);
 /// Angle of a point about the path, from side to up; the first crown is at the side direction.
 double angle_of(const StentModel& model, const StentState& state, int point);
 /// First and last point along the path.

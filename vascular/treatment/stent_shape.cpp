@@ -22,7 +22,7 @@ double flat_m(const StentState& s, int ring, double angle) {
 
 double gap_of(const StentModel& m, const StentState& s, const VesselPath& path, const PlaqueState& wall, int point) {
   const int around = 2 * m.crowns, ring = point / around;
-  const double at = s.middle_m + s.shift_m + s.along_m[point], angle = angle_of(m, s, point);
+  const double at = place_of_m(s, point), angle = angle_of(m, s, point);
   const double room = path.value(wall.radius_m, at) - s.radius_m[ring] - m.strut_m;
   if (room <= 0) return 0;
   // A wall that is hardly longer than the ring bulges only as far as an arc on a chord.
@@ -90,11 +90,13 @@ std::vector<Eigen::Vector3d> points_on_path(const StentModel& m, const StentStat
                                             const VesselPath& path, const LumenMoment& moment,
                                             const std::function<Eigen::Vector2d(double)>& aside_m) {
   std::vector<Eigen::Vector3d> out;
-  const PathFrames frames(map, path, span_of(s).first, moment);
+  double least_m = place_of_m(s, 0);
+  for (int i = 1; i < m.points(); ++i) least_m = std::min(least_m, place_of_m(s, i));
+  const PathFrames frames(map, path, least_m, moment);
   for (int i = 0; i < m.points(); ++i) {
     out.push_back(point_on_path(m, s, frames, i));
     if (!aside_m) continue;
-    const double at_m = s.middle_m + s.shift_m + s.along_m[i];
+    const double at_m = place_of_m(s, i);
     const PathFrame f = frames.at(at_m);
     out.back() += aside_m(at_m).x() * f.side + aside_m(at_m).y() * f.up;
   }
@@ -103,7 +105,7 @@ std::vector<Eigen::Vector3d> points_on_path(const StentModel& m, const StentStat
 
 Eigen::Vector3d point_on_path(const StentModel& m, const StentState& s, const PathFrames& frames, int i) {
   const int around = 2 * m.crowns;
-  const PathFrame f = frames.at(s.middle_m + s.shift_m + s.along_m[i]);
+  const PathFrame f = frames.at(place_of_m(s, i));
   const double a = angle_of(m, s, i), r = s.radius_m[i / around] + m.strut_m / 2;
   return f.centre + r * (std::cos(a) * f.side + std::sin(a) * f.up);
 }

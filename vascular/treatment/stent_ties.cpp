@@ -43,7 +43,8 @@ bool hangs(const StentModel& m, const StentState& s, int begin) {
   for (int i = begin; i < begin + around; ++i) {
     const StentTie& tie = s.ties[static_cast<std::size_t>(i)];
     if (tie.triangle == StentTie::untied ||
-        std::hypot(s.along_m[i] - tie.along_m, s.radius_m[i / around] * (s.turned_rad[i] - tie.turned_rad)) > moved_m)
+        std::hypot(s.along_m[i] + s.pushed_m[i] - tie.along_m,
+                   s.radius_m[i / around] * (s.turned_rad[i] - tie.turned_rad)) > moved_m)
       return false;
   }
   return true;
@@ -70,8 +71,9 @@ bool StentTies::tie_next(const StentModel& m, const VesselPath& path, const Plaq
   int begin = 0;
   while (begin < m.points() && hangs(m, s, begin)) begin += around;
   if (begin == m.points()) return false;
-  const double least_m = *std::min_element(s.along_m.begin() + begin, s.along_m.begin() + begin + around);
-  const PathFrames frames(map_, path, s.middle_m + s.shift_m + least_m, moment);
+  double least_m = place_of_m(s, begin);
+  for (int j = 1; j < around; ++j) least_m = std::min(least_m, place_of_m(s, begin + j));
+  const PathFrames frames(map_, path, least_m, moment);
   std::array<RingPoint, 2 * most_crowns> ring;
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
   for (int j = 0; j < around; ++j) {
@@ -106,7 +108,7 @@ bool StentTies::tie_next(const StentModel& m, const VesselPath& path, const Plaq
     StentTie& tie = s.ties[static_cast<std::size_t>(begin + j)];
     if (tie.triangle == StentTie::untied) tie.triangle = StentTie::out_of_reach;
     tie.depth_m = m.strut_m / 2 + gap_of(m, s, path, wall, begin + j);
-    tie.along_m = s.along_m[begin + j], tie.turned_rad = s.turned_rad[begin + j];
+    tie.along_m = s.along_m[begin + j] + s.pushed_m[begin + j], tie.turned_rad = s.turned_rad[begin + j];
   }
   return true;
 }

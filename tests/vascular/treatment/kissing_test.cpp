@@ -142,7 +142,7 @@ struct ForkedBench {
     const Fork& fork = model.forks[0];
     const double longer = 1 / std::sqrt(1 - fork.cosine * fork.cosine);
     for (int p = 0; p < model.stents[0].points(); ++p) {
-      const double x = (s.middle_m + s.shift_m + s.along_m[p] - model.paths[1].s_m[39]) / longer;
+      const double x = (place_of_m(s, p) - model.paths[1].s_m[39]) / longer;
       const double y = s.radius_m[p / (2 * model.stents[0].crowns)] *
                        std::remainder(angle_of(model.stents[0], s, p) - fork.angle_rad, 2 * pi);
       least = std::min(least, std::hypot(x, y));
