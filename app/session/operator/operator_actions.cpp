@@ -44,6 +44,8 @@ bool is_about(const Step& step, const SessionState& session, int nth) {
   return own && own.place->tool == step.tools.front();
 }
 
+void remember_gauges(const Step&, const SessionState&, OperatorState& state) { state.began_gauge_Pa = state.gauge_Pa; }
+
 void screw_inflation_devices(const Step& step, const SessionState& session, double now_s, OperatorState& state) {
   const double part = std::min(1.0, (now_s - state.began_s) / step.over_s);
   for (int nth = 0; nth < vascular::most_balloons; ++nth) {
@@ -102,7 +104,7 @@ constexpr Handling handlings[] = {
                  OperatorState& state) { state.given.aspiration_m3_s = step.rate_m3_s; },
      .moved_m3 = [](const SessionState& session) { return session.blood.heart.circulation.drawn_m3; }},
     {.action = data::ScriptAction::inflate,
-     .begin = [](const Step&, const SessionState&, OperatorState& state) { state.began_gauge_Pa = state.gauge_Pa; },
+     .begin = remember_gauges,
      .go_on = screw_inflation_devices,
      .is_over = all_show},
     {.action = data::ScriptAction::deflate,
