@@ -1,4 +1,4 @@
-/// Two wires in one guide: which tool runs over which, what lies side by side, and what lacks room.
+/// Two wires in one guide: which tool runs over which, what lies side by side, and what lacks room; two balloons.
 #include <gtest/gtest.h>
 
 #include "app/session/model/session.h"
@@ -95,6 +95,37 @@ TEST(TwoWires, RoomThatLacksIsSaid) {
   run.feed(2, 100, 0.1);
   EXPECT_EQ(run.report.refused, 2);
   EXPECT_EQ(run.inserted_m(2), 0);
+}
+
+TEST(TwoBalloons, EachHasItsDeviceUntilItIsOut) {
+  TwoWires run({tool("guide", "guide-jl4-7f"), tool("balloon", "balloon-20x10", "wire"),
+                tool("second balloon", "balloon-nc-30x12", "second wire"), tool("wire", "wire-014-workhorse"),
+                tool("second wire", "wire-014-workhorse")});
+  run.feed(0, 100, 0.5), run.feed(2, 100, 0.45), run.feed(1, 100, 0.4);
+  ASSERT_TRUE(run.report.tools[1].in_body && run.report.tools[2].in_body) << "7F has room for both";
+  const auto tool_of = [&](int nth) {
+    const BalloonInBody own = balloon_in_body(run.state.coupling, run.state.treatment, run.inputs.delivery, nth);
+    return own ? own.place->tool : -1;
+  };
+  EXPECT_EQ(tool_of(0), 2) << "it came first";
+  EXPECT_EQ(tool_of(1), 1);
+  const auto wait = [&](double seconds) { run.feed(4, 0, seconds); };
+  run.inputs.delivery.gauge_Pa = 0, run.inputs.delivery.second_gauge_Pa = 6 * 101325;
+  wait(2);
+  const auto& balloons = run.state.treatment.balloons;
+  EXPECT_GT(balloons[1].pressure_Pa, 4 * 101325);
+  EXPECT_LT(balloons[0].pressure_Pa, 0.1 * 101325);
+  run.inputs.delivery.gauge_Pa = 6 * 101325, run.inputs.delivery.second_gauge_Pa = -101325;
+  wait(4);
+  EXPECT_LT(balloons[1].pressure_Pa, 0.5 * 101325);
+  EXPECT_GT(balloons[0].pressure_Pa, 4 * 101325);
+  run.inputs.delivery.gauge_Pa = -101325;
+  run.feed(2, -150, 0.5);
+  EXPECT_EQ(tool_of(0), 1) << "what is left is the first";
+  EXPECT_EQ(tool_of(1), -1);
+  run.inputs.delivery.gauge_Pa = 6 * 101325, run.inputs.delivery.second_gauge_Pa = 0;
+  wait(2);
+  EXPECT_GT(balloons[1].pressure_Pa, 4 * 101325) << "and keeps its fill";
 }
 
 }  // namespace
