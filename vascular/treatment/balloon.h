@@ -51,6 +51,7 @@ struct BalloonState {
   bool burst = false;
   double seat_m = 0;                     ///< middle of its markers along the path
   bool held = false;                     ///< pressed by the wall, which keeps it there; else it goes with its shaft
+  double holds_N = 0;                    ///< and with how much at most, by friction
   std::vector<Eigen::Vector2d> aside_m;  ///< (balloon_spheres) from the artery's middle line, along side and up
   std::vector<double> flat_rad;          ///< (balloon_spheres) beta, where another lies beside it (side_by_side.h)
   /// To where its proximal and distal bond pull the shaft, in the same way, and how stiffly: as bond and wall are.
@@ -69,6 +70,7 @@ constexpr auto fields(const BalloonState*) {
                     core::field("burst", &S::burst),
                     core::field("seat_m", &S::seat_m),
                     core::field("held", &S::held),
+                    core::field("holds_N", &S::holds_N),
                     core::field("aside_m", &S::aside_m),
                     core::field("flat_rad", &S::flat_rad),
                     core::field("bonds_m", &S::bonds_m),

@@ -1,6 +1,7 @@
 #include "app/session/coupling/device_constraints.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "app/session/coupling/tool_geometry.h"
 #include "vascular/treatment/stent_shape.h"
@@ -24,7 +25,7 @@ vascular::PathFrame frame_of(const CouplingModel& model, const CoupledBalloon& s
 
 }  // namespace
 
-std::array<core::Tether, core::max_tethers> tethers_on_shaft(const CouplingModel& model,
+std::array<core::Tether, core::max_tethers> tethers_on_shaft(const CouplingModel& model, const core::State& rods,
                                                              const vascular::TreatmentState& treatment,
                                                              const CouplingState& s, int tool,
                                                              const vascular::LumenMoment& moment) {
@@ -38,7 +39,11 @@ std::array<core::Tether, core::max_tethers> tethers_on_shaft(const CouplingModel
   // Aside, the shaft is not pulled: contact's wall lags the lumen that the balloon opens, and what pulls a shaft
   // towards the one presses it into the other.
   const vascular::PathFrame middle = frame_of(model, s.balloons[place], body.seat_m, moment);
-  return {core::Tether{(near_m + far_m) / 2, middle.centre, middle.along, own.bond_N_m, 0}};
+  // The seat is as old as the last look; what the shaft has moved since does not pull more than friction holds.
+  const Vector3d p = point_from_tip(model.rods.rods[t], rods.rods[t], (near_m + far_m) / 2);
+  const double pulls_N = own.bond_N_m * std::fabs((middle.centre - p).dot(middle.along));
+  const double share = pulls_N > body.holds_N ? body.holds_N / pulls_N : 1;
+  return {core::Tether{(near_m + far_m) / 2, middle.centre, middle.along, share * own.bond_N_m, 0}};
 }
 
 core::StretchLoad load_on_shaft(const CouplingModel& model, const core::State& rods, const CouplingState& s, int tool) {

@@ -6,7 +6,7 @@
 namespace ostium::app {
 
 /// What an open balloon that the wall holds does to its shaft, along the artery, in the step that ends at `moment`.
-std::array<core::Tether, core::max_tethers> tethers_on_shaft(const CouplingModel& model,
+std::array<core::Tether, core::max_tethers> tethers_on_shaft(const CouplingModel& model, const core::State& rods,
                                                              const vascular::TreatmentState& treatment,
                                                              const CouplingState& state, int tool,
                                                              const vascular::LumenMoment& moment);

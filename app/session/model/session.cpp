@@ -240,7 +240,7 @@ void hold_shafts(const SessionModel& model, const SessionState& state, core::Inp
   for (std::size_t t = 0; t < model.tools.size(); ++t) {
     const int tool = static_cast<int>(t);
     core.rods[t].load = load_on_shaft(coupling, state.rods, state.coupling, tool);
-    core.rods[t].tethers = tethers_on_shaft(coupling, state.treatment, state.coupling, tool, end);
+    core.rods[t].tethers = tethers_on_shaft(coupling, state.rods, state.treatment, state.coupling, tool, end);
   }
 }
 
