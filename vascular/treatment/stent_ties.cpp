@@ -37,17 +37,18 @@ std::pair<double, double> weights_at(const Eigen::Vector3d& p, const Eigen::Vect
   return {(vv * wu - uv * wv) / d, (uu * wv - uv * wu) / d};
 }
 
-/// Whether every point of the ring that begins there is tied where it is now.
-bool hangs(const StentModel& m, const StentState& s, int begin) {
+/// The first point of the ring that is tied next: one that is not, else one whose points have moved since; -1: none.
+int next_ring(const StentModel& m, const StentState& s) {
   const int around = 2 * m.crowns;
-  for (int i = begin; i < begin + around; ++i) {
+  for (int begin = 0; begin < m.points(); begin += around)
+    if (s.ties[static_cast<std::size_t>(begin)].triangle == StentTie::untied) return begin;
+  for (int i = 0; i < m.points(); ++i) {
     const StentTie& tie = s.ties[static_cast<std::size_t>(i)];
-    if (tie.triangle == StentTie::untied ||
-        std::hypot(s.along_m[i] + s.pushed_m[i] - tie.along_m,
-                   s.radius_m[i / around] * (s.turned_rad[i] - tie.turned_rad)) > moved_m)
-      return false;
+    const double along_m = s.along_m[i] + s.pushed_m[i] - tie.along_m,
+                 round_m = s.radius_m[i / around] * (s.turned_rad[i] - tie.turned_rad);
+    if (std::hypot(along_m, round_m) > moved_m) return i / around * around;
   }
-  return true;
+  return -1;
 }
 
 }  // namespace
@@ -68,9 +69,8 @@ StentTies::StentTies(const Patient& patient, const WallShape& shape, const Lumen
 bool StentTies::tie_next(const StentModel& m, const VesselPath& path, const PlaqueState& wall,
                          const LumenMoment& moment, StentState& s) const {
   const int around = 2 * m.crowns;
-  int begin = 0;
-  while (begin < m.points() && hangs(m, s, begin)) begin += around;
-  if (begin == m.points()) return false;
+  const int begin = next_ring(m, s);
+  if (begin < 0) return false;
   double least_m = place_of_m(s, begin);
   for (int j = 1; j < around; ++j) least_m = std::min(least_m, place_of_m(s, begin + j));
   const PathFrames frames(map_, path, least_m, moment);
