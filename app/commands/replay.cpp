@@ -13,6 +13,7 @@
 #include "app/command_line/pictures.h"
 #include "app/command_line/progress.h"
 #include "app/reader/read_apart.h"
+#include "app/session/scene/angioscopy.h"
 #include "app/session/scene/film.h"
 #include "core/base/units.h"
 #include "data/formats/dicom/dicom_runs.h"
@@ -51,6 +52,7 @@ struct Arguments {
   bool verify = false;
   double from_s = 0, seconds = 0;  ///< `seconds` 0: to the end
   std::string video, dicom, png;   ///< file names; empty: none
+  std::string inside;              ///< of `png`: seen from inside an artery, into this branch
   PictureArguments picture;
   bool json = false;
 
@@ -84,6 +86,8 @@ void declare(Options& options, Arguments& a) {
       .type("FILE.dcm")
       .writes();
   options.add("--png", a.png, "One picture, at --from").type("FILE.png").writes();
+  options.add("--inside", a.inside, "The picture is no X-ray, but what a camera in the artery sees of a branch's mouth")
+      .type("BRANCH");
   declare_picture(options, a.picture);
   add_json_flag(options, a.json);
 }
@@ -210,11 +214,26 @@ int check_same(const Arguments& a, Replay& replay, Json& told) {
   return report.first_step ? 1 : 0;
 }
 
+/// `told` gets what was written.
+int look_inside(const Arguments& a, const Replay& replay, Json& told) {
+  if (!replay.model.has_patient()) throw data::LoadError(a.file + ": --inside is for cases; a mesh has no branches");
+  show_progress("looking into " + a.inside);
+  const Angioscopy seen = look_inside(replay.model, replay.state, a.inside, a.picture.pixels);
+  show_progress("");
+  data::write_rgb_png(a.png, seen.pixels, seen.pixels, seen.rgb);
+  const double at_s = seconds(replay.model, replay.state);
+  told["pictures"].push_back({{"file", a.png}, {"at_s", at_s}});
+  if (!a.json) fmt::print("{}: {} at {:.3f} s\n", a.png, a.inside, at_s);
+  return 0;
+}
+
 /// Before the vessel is built, which takes seconds.
 void require_arguments(const Arguments& a) {
   if (!a.video.empty()) require_ending(a.video, {".mp4"});
   if (!a.dicom.empty()) require_ending(a.dicom, {".dcm"}), data::require_dicom();
   if (!a.png.empty()) require_ending(a.png, {".png"});
+  if (!a.inside.empty() && (a.png.empty() || a.films() || a.verify))
+    throw data::LoadError("--inside is one picture; expected --png FILE.png with it, and neither a film nor --verify");
   if (!a.films() && a.seconds > 0)
     throw data::LoadError("--seconds is the length of a film; expected --video FILE.mp4 or --dicom FILE.dcm with it");
   if (!a.shows() && a.picture.asked_for())
@@ -241,7 +260,9 @@ int run(const Arguments& a) {
   Json told = {{"file", a.file}, {"software", replay.recording.software()}};
   int code = 0;
   if (a.verify || !a.shows()) code = check_same(a, replay, told);
-  if (a.shows()) {
+  if (!a.inside.empty()) {
+    code = look_inside(a, replay, told);
+  } else if (a.shows()) {
     // Strips also show the seconds before.
     const double before_s = std::max(a.png.empty() ? 0 : lag_s, a.picture.monitor ? monitor_s : 0);
     replay.go_to(std::max(0.0, a.from_s - before_s));
@@ -257,7 +278,8 @@ Command replay_command() {
   return make_command(
       "replay", "A recorded run once more: whether it is the same, and pictures",
       {"ostium replay out/run.h5 --verify", "ostium replay out/run.h5 --from 12.5 --view spider --video out.mp4",
-       "ostium replay out/run.h5 --from 8 --lao 40 --cran 0 --png moment.png"},
+       "ostium replay out/run.h5 --from 8 --lao 40 --cran 0 --png moment.png",
+       "ostium replay out/run.h5 --from 355 --inside D1 --png cell.png"},
       declare, run);
 }
 
