@@ -71,6 +71,19 @@ LesionType type_of(const Lesion& lesion) {
   return lesion.length_m >= 10 * mm || lesion.eccentric || lesion.made_of.calcified() ? LesionType::B : LesionType::A;
 }
 
+void place(const Anatomy& anatomy, Lesion& lesion) {
+  const NamedBranch *branch = find_branch(anatomy, lesion.branch), *side = find_branch(anatomy, lesion.at_branch);
+  if (lesion.at_branch.empty() || !branch) return;
+  const std::size_t tube = side ? static_cast<std::size_t>(side->tube) : 0;
+  if (!side || anatomy.tubes[tube].parent != branch->tube)
+    throw std::invalid_argument(
+        fmt::format("at_branch is \"{}\"; expected a branch that leaves {}", lesion.at_branch, lesion.branch));
+  const double leaves_m =
+      nearest_s(anatomy.tubes[static_cast<std::size_t>(branch->tube)], anatomy.tubes[tube].nodes.front().p) -
+      branch->from_m;
+  lesion.from_m = std::max(0.0, leaves_m + lesion.from_at_m);
+}
+
 void check(const Anatomy& anatomy, const Lesion& lesion) {
   const NamedBranch* branch = find_branch(anatomy, lesion.branch);
   if (!branch)

@@ -32,6 +32,8 @@ struct Lesion {
   bool eccentric = false;  ///< plaque on one side only; the opposite wall is unchanged
   double side_rad = 0;     ///< position of an eccentric plaque: 0 towards the heart, turning towards the branch's right
   Composition made_of = {};
+  std::string at_branch = {};  ///< of the branch's own branches: `from_m` follows it in every person; empty: none
+  double from_at_m = 0;        ///< proximal end from where that leaves, negative before it
 };
 
 /// Lesion types after ACC/AHA (Ryan et al., Circulation 1988;78:486): A short and concentric, B tubular or eccentric, C
@@ -42,6 +44,10 @@ LesionType type_of(const Lesion& lesion);
 
 /// A shorter one would lie between the cells (0.7 mm) and triangles that carry an artery, and show less than it says.
 inline constexpr double shortest_lesion_m = 3e-3;
+
+/// Sets `from_m` of a lesion that follows a branch of its branch. Throws std::invalid_argument if that does not leave
+/// it.
+void place(const Anatomy& anatomy, Lesion& lesion);
 
 /// Throws std::invalid_argument listing valid values: unknown branch, a lesion that does not fit it, a stenosis out of
 /// range.

@@ -44,7 +44,11 @@ inline const JsonObjectKeys imported = {
 inline const JsonObjectKeys lesion = {
     "lesion",
     {{"branch", true, "the name of a coronary artery", json_type::text()},
-     {"from_mm", true, "the proximal end in mm from the branch's origin, >= 0", json_type::number(from_zero)},
+     {"from_mm", true,
+      "the proximal end in mm from the branch's origin, >= 0; with at_branch from there, or before it, < 0",
+      json_type::number({})},
+     {"at_branch", false, "a branch of that branch: from_mm is from where it leaves, in every person",
+      json_type::text()},
      {"length_mm", true, "the length in mm, at least 3, within the branch", json_type::number({.least = 3})},
      {"stenosis_percent", true, "what is missing of the diameter where it is narrowest, in %, > 0 and at most 95",
       json_type::number(above_zero_to(95))},

@@ -54,7 +54,7 @@ vascular::Composition read_composition(const JsonObject& entry) {
 /// `own_beat`: frames that were given say what moves.
 vascular::Lesion read_lesion(const JsonObject& entry, const vascular::Anatomy& anatomy, bool own_beat) {
   vascular::Lesion lesion{.branch = entry.text("branch"),
-                          .from_m = entry.not_negative("from_mm") * 1e-3,
+                          .from_m = (entry.has("at_branch") ? 0 : entry.not_negative("from_mm")) * 1e-3,
                           .length_m = entry.positive("length_mm") * 1e-3,
                           .stenosis = entry.positive("stenosis_percent") / 100,
                           .eccentric = entry.choice("shape", {"concentric", "eccentric"}) == 1,
@@ -63,7 +63,10 @@ vascular::Lesion read_lesion(const JsonObject& entry, const vascular::Anatomy& a
     if (!lesion.eccentric) entry.refuse("side_deg");
     lesion.side_rad = entry.number("side_deg") * units::pi / 180;
   }
+  if (entry.has("at_branch"))
+    lesion.at_branch = entry.text("at_branch"), lesion.from_at_m = entry.number("from_mm") * 1e-3;
   try {
+    place(anatomy, lesion);
     check(anatomy, lesion);
   } catch (const std::invalid_argument& error) {
     entry.value().fail(fmt::format("{}: {}", entry.value().path(), error.what()));
@@ -211,6 +214,7 @@ Case with_person(const Case& c, std::uint64_t seed) {
   const vascular::Anatomy anatomy = anatomy_of(out);
   std::uint64_t number = 0;
   for (vascular::Lesion& lesion : out.lesions) {
+    place(anatomy, lesion);
     if (seed != 0) lesion.made_of = vascular::draw_composition(lesion.made_of.calcified(), seed, number++);
     if (const vascular::NamedBranch* branch = find_branch(anatomy, lesion.branch);
         branch && branch->length_m() > lesion.length_m)
