@@ -149,6 +149,9 @@ void draw_numbers(const Pen& pen, const PanelTexts& texts, const Snapshot& now, 
     const double balloon = signal(texts, now, "balloon_mm");
     entries.push_back(
         {"gauge", fmt::format("{:.0f} atm{}", gauge, balloon > 0 ? fmt::format(", {:.2f} mm", balloon) : "")});
+    if (const double second = signal(texts, now, "second_balloon_mm"); second > 0)
+      entries.push_back(
+          {"second", fmt::format("{:.0f} atm, {:.2f} mm", signal(texts, now, "second_gauge_atm"), second)});
     entries.push_back({"contrast", fmt::format("{:.1f} mL", signal(texts, now, "contrast_mL"))});
     entries.push_back({"ACT", fmt::format("{:.0f} s", signal(texts, now, "act_s"))});
   }
@@ -197,6 +200,8 @@ bool does_something(const data::ConsoleRow& row, const PanelTexts& texts, const 
     case vacuum:
     case gauge:
     case change_gauge:
+    case second_gauge:
+    case change_second_gauge:
       return texts.has_balloon;
     case take_over:
       return now.hands == Hands::script;

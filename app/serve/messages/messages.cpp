@@ -274,6 +274,8 @@ std::string message_of(const Setting& setting, const Snapshot& now, const LivePi
                       {"contrast_mL", number(signal("contrast_mL"), 0.1)},
                       {"gauge_atm", number(signal("gauge_atm"), 0.1)},
                       {"balloon_mm", number(signal("balloon_mm"), 0.01)},
+                      {"second_gauge_atm", number(signal("second_gauge_atm"), 0.1)},
+                      {"second_balloon_mm", number(signal("second_balloon_mm"), 0.01)},
                       {"lesion_mld_mm", number(signal("lesion_mld_mm"), 0.01)},
                       {"pericardium_mL", number(signal("pericardium_mL"), 1)},
                       {"pericardium_mmHg", number(signal("pericardium_mmHg"), 0.1)},

@@ -215,6 +215,7 @@ function show() {
     ['cine', `${x.runs} in ${fixed(x.cine_s, 1)} s`], ['dose', `${fixed(x.dap_Gycm2, 2)} Gy cm²`]];
   const numbers = p ? [['gauge', `${fixed(p.gauge_atm, 1)} atm`], ['balloon', `${fixed(p.balloon_mm, 2)} mm`], ['contrast', `${fixed(p.contrast_mL, 1)} mL`], ['ACT', `${fixed(p.act_s, 0)} s`],
     ['ST', `${fixed(p.ST_mV, 2)} mV`], ['flow', p.flow_share === null ? '–' : `${Math.round(100 * p.flow_share)} %`], ['lesion', `${fixed(p.lesion_mld_mm, 2)} mm`], ['tear hazard', fixed(p.hazard, 3)], ...arm] : arm;
+  if (p?.second_balloon_mm > 0) numbers.splice(2, 0, ['second gauge', `${fixed(p.second_gauge_atm, 1)} atm`], ['second balloon', `${fixed(p.second_balloon_mm, 2)} mm`]);
   if (p?.pericardium_mL > 0) numbers.unshift(['pericardium', `${p.pericardium_mL} mL`], ['its pressure', `${fixed(p.pericardium_mmHg, 1)} mmHg`]);
   if (p?.leak_mL_s > 0.005) numbers.unshift(['leak', `${fixed(p.leak_mL_s, 2)} mL/s`]);
   if (p?.awake === 0) numbers.unshift(['patient', 'does not answer']);

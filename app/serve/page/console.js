@@ -93,6 +93,9 @@ export class Console {
       add = this.group('Syringe and indeflator');
       add(this.hold('Contrast', 'contrast'), this.hold('Saline', 'saline'), this.hold('Draw back', 'aspirate'), this.hold('Vacuum', 'vacuum'));
       add(this.press('−1 atm', 'change_gauge', -1), this.press('+1 atm', 'change_gauge', 1), this.press('Release', 'gauge', 0));
+      this.second = document.createElement('span');
+      this.second.append('second balloon ', this.press('−1 atm', 'change_second_gauge', -1), this.press('+1 atm', 'change_second_gauge', 1), this.press('Release', 'second_gauge', 0));
+      add(this.second);
     }
     add = this.group('Hands');
     add(this.hold('Guide in', 'guide_feed', 1), this.hold('out', 'guide_feed', -1), this.hold('⟳', 'guide_turn', 1), this.hold('⟲', 'guide_turn', -1));
@@ -144,6 +147,7 @@ export class Console {
     this.roadmap.disabled = viewer;
     this.roadmap.setAttribute('aria-pressed', now.picture.roadmap);
     this.rates.forEach((made, i) => made.classList.toggle('on', now.picture.rate === [3.75, 7.5, 15, 30][i]));
+    if (this.second) this.second.hidden = !(now.patient?.second_balloon_mm > 0);
     this.right.textContent = now.right_hand >= 0 ? `right hand: ${welcome.tools[now.right_hand].name}` : '';
     this.field = now.arm.field_mm;
   }

@@ -51,7 +51,7 @@ double Console::level(ConsoleCommand held) const {
 void Console::restart(const SessionInputs& inputs, const CArmInputs& asked,
                       const std::vector<std::uint64_t>& moved_at) {
   arm_ = inputs.c_arm, asked_ = asked, arm_is_set_ = true;
-  gauge_Pa_ = inputs.delivery.gauge_Pa;
+  gauge_Pa_ = inputs.delivery.gauge_Pa, second_gauge_Pa_ = inputs.delivery.second_gauge_Pa;
   picture_.review = picture_.review_frame = 0;
   right_ = first_right_;
   std::uint64_t last = 0;
@@ -112,6 +112,12 @@ void Console::take(const SessionModel& model, const ConsoleOrder& order, Hands h
       return;
     case gauge:
       gauge_Pa_ = a * atm;
+      return;
+    case change_second_gauge:
+      second_gauge_Pa_ = std::clamp(std::max(second_gauge_Pa_, 0.0) + a * atm, 0.0, 30 * atm);
+      return;
+    case second_gauge:
+      second_gauge_Pa_ = a * atm;
       return;
     case heparin:
       heparin_U_ += a;
@@ -188,8 +194,9 @@ void Console::give(const SessionModel& model, Hands hands, DeliveryInputs& to) {
     to.aspiration_m3_s = level(ConsoleCommand::aspirate) * hand_aspiration_m3_s;
   // A plunger that was drawn back stays where there is no pressure; it does not fill the balloon again.
   const bool drawn_back = level(ConsoleCommand::vacuum) > 0.5;
-  if (drawn_back) gauge_Pa_ = 0;
+  if (drawn_back) gauge_Pa_ = second_gauge_Pa_ = 0;
   if (to.gauge_Pa == 0) to.gauge_Pa = drawn_back ? -0.9 * atm : gauge_Pa_;
+  if (to.second_gauge_Pa == 0) to.second_gauge_Pa = drawn_back ? -0.9 * atm : second_gauge_Pa_;
 }
 
 void Console::fill(const SessionModel& model, Hands hands, SessionInputs& inputs) {
@@ -203,7 +210,7 @@ void Console::fill(const SessionModel& model, Hands hands, SessionInputs& inputs
   inputs.c_arm.cine = film || level(ConsoleCommand::cine) > 0.3;
   if (hands == Hands::seats) move_tools(inputs);
   // Whoever takes over finds the indeflator as the script had it.
-  if (hands == Hands::script) gauge_Pa_ = inputs.delivery.gauge_Pa;
+  if (hands == Hands::script) gauge_Pa_ = inputs.delivery.gauge_Pa, second_gauge_Pa_ = inputs.delivery.second_gauge_Pa;
   if (model.has_patient()) give(model, hands, inputs.delivery);
 }
 

@@ -54,7 +54,8 @@ class Console {
   CArmInputs arm_, asked_;  ///< pose as it is, and as script or box asked for it last
   bool arm_is_set_ = false;
   Emergency emergency_;
-  double gauge_Pa_ = 0,  ///< as it is left; while the plunger is drawn back there is a vacuum
+  double gauge_Pa_ = 0,
+         second_gauge_Pa_ = 0,  ///< as they are left; while the plungers are drawn back there is a vacuum
       heparin_U_ = 0, nitrate_ug_ = 0, adenosine_ug_ = 0;
   PictureSettings picture_;
 };

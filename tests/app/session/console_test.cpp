@@ -58,6 +58,17 @@ TEST(Console, APlungerDrawnBackDoesNotFillTheBalloonAgain) {
   EXPECT_EQ(gauge_atm(), 0) << "let go of";
   console.take(run.model, {ConsoleCommand::change_gauge, {1}}, Hands::seats);
   EXPECT_NEAR(gauge_atm(), 1, 1e-9);
+  const auto second_atm = [&] {
+    SessionInputs inputs = run.inputs;
+    console.fill(run.model, Hands::seats, inputs);
+    return inputs.delivery.second_gauge_Pa / atm;
+  };
+  console.take(run.model, {ConsoleCommand::second_gauge, {8}}, Hands::seats);
+  console.take(run.model, {ConsoleCommand::change_second_gauge, {2}}, Hands::seats);
+  EXPECT_NEAR(second_atm(), 10, 1e-9);
+  EXPECT_NEAR(gauge_atm(), 1, 1e-9) << "each has its own";
+  console.controls[0].set(ConsoleCommand::vacuum, 1);
+  EXPECT_NEAR(second_atm(), -0.9, 1e-9) << "both are emptied together";
 }
 
 TEST(Console, AfterGoingBackTheToolThatWasMovedLastIsInHand) {

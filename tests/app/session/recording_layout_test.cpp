@@ -111,6 +111,7 @@ TEST(Recording, SaysWhatItsNumbersAre) {
                                      {"injection_m3_s", "m3/s"},
                                      {"iodine_kg_m3", "kg/m3"},
                                      {"gauge_Pa", "Pa"},
+                                     {"second_gauge_Pa", "Pa"},
                                      {"heparin_U", "U"},
                                      {"nitrate_ug", "ug"}})
     EXPECT_EQ(unit_of("inputs", column), unit) << column;
