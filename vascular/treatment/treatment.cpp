@@ -241,7 +241,6 @@ TreatmentState make_state(const TreatmentModel& model, const FlowTree& tree) {
     balloon.radius_m.assign(balloon_spheres, 0), balloon.flat_rad = balloon.radius_m;
     balloon.aside_m.assign(balloon_spheres, Eigen::Vector2d::Zero());
   }
-  s.balloon_in.fill(-1);
   for (const StentModel& stent : model.stents) s.stents.push_back(make_stent_state(stent));
   s.carina_m.assign(model.forks.size(), 0);
   s.spasm.assign(tree.branches.size(), 0);

@@ -65,10 +65,10 @@ struct TreatmentInputs {
 struct TreatmentState {
   PlaqueState wall;
   std::array<BalloonState, most_balloons> balloons;
-  std::array<int, most_balloons> balloon_in;  ///< index in the model; -1: none yet
-  std::vector<StentState> stents;             ///< (#stents), including crimped ones
-  std::vector<double> carina_m;               ///< (#forks) how far it lies in the side branch's mouth (carina.h)
-  std::vector<double> spasm;                  ///< (#branches) [0, 1): of the diameter; may be set from outside
+  std::array<int, most_balloons> balloon_in{-1, -1};  ///< index in the model; -1: none yet
+  std::vector<StentState> stents;                     ///< (#stents), including crimped ones
+  std::vector<double> carina_m;  ///< (#forks) how far it lies in the side branch's mouth (carina.h)
+  std::vector<double> spasm;     ///< (#branches) [0, 1): of the diameter; may be set from outside
   InjuryState injury;
   ThrombusState thrombus;
   DrugState drugs;
