@@ -145,6 +145,28 @@ TEST(Case, ALesionLiesAtTheEndOfAnArteryThatIsShorterInSomebody) {
   EXPECT_GT(moved, 0);
 }
 
+TEST(Case, ALesionFollowsTheBranchThatItIsAt) {
+  const Case mean = find_case("lad-diagonal");
+  ASSERT_EQ(mean.lesions.front().at_branch, "D1");
+  std::set<double> places_mm;
+  for (std::uint64_t seed = 0; seed <= 8; ++seed) {
+    const Case one = with_person(mean, seed);
+    const vascular::Anatomy anatomy = anatomy_of(one);
+    const vascular::Lesion& lesion = one.lesions.front();
+    const vascular::NamedBranch &lad = *find_branch(anatomy, "LAD"), &side = *find_branch(anatomy, "D1");
+    const auto& tubes = anatomy.tubes;
+    const Eigen::Vector3d middle =
+        tubes[static_cast<std::size_t>(lad.tube)].at(lad.from_m + lesion.from_m + lesion.length_m / 2).p;
+    const Eigen::Vector3d leaves = tubes[static_cast<std::size_t>(side.tube)].nodes.front().p;
+    EXPECT_LT((middle - leaves).norm(), 1e-3) << "its middle is where the branch leaves, in person " << seed;
+    places_mm.insert(1e3 * lesion.from_m);
+  }
+  EXPECT_GT(*places_mm.rbegin() - *places_mm.begin(), 2) << "which is not the same in all";
+  expect_words(case_refusal("\"calcified\": false", "\"calcified\": false, \"at_branch\": \"OM1\""),
+               {"at_branch is \"OM1\"", "a branch that leaves RCA"});
+  expect_words(case_refusal("\"from_mm\": 40", "\"from_mm\": -4"), {"from_mm is -4"});
+}
+
 TEST(Case, AnotherPersonHasPlaqueOfTheirOwn) {
   const Case mean = find_case("rca-diffuse"), one = with_person(mean, 1), again = with_person(mean, 1);
   EXPECT_EQ(with_person(mean, 0).lesions[0].made_of.calcium_arc_rad, mean.lesions[0].made_of.calcium_arc_rad);
