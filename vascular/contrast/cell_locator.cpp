@@ -8,6 +8,7 @@ namespace ostium::vascular {
 namespace {
 
 constexpr double in_vessel = 1.6;     // distance from the centreline, in radii, that still counts as inside
+constexpr double thrown_m = 1.5e-3;   // by which a beat throws a shaft out of its vessel
 constexpr double at_ostium_m = 8e-3;  // distance from an ostium within which a jet may enter it
 constexpr double in_aorta_m = 25e-3;
 constexpr std::size_t boxed = 16;  // cells, which follow one another along a branch
@@ -92,8 +93,11 @@ CellLocator::Found inside(const CellLocator& locator, const FlowTree& tree, cons
   const auto is_inside = [&](const CellLocator::Found& f) {
     return f.cell >= 0 && f.distance_m <= in_vessel * tree.cells[f.cell].healthy_m;
   };
+  // A beat throws it out of its vessel for a moment: it does not leave its wire for the vessel beside it.
   if (wire_cell >= 0)
-    if (const auto f = locator.nearest_on(paths[tree.cells[wire_cell].branch], p, limit_m); is_inside(f)) return f;
+    if (const auto f = locator.nearest_on(paths[tree.cells[wire_cell].branch], p, limit_m);
+        f.cell >= 0 && f.distance_m <= in_vessel * tree.cells[f.cell].healthy_m + thrown_m)
+      return f;
   const CellLocator::Found f = locator.nearest(p, limit_m);
   return is_inside(f) ? f : CellLocator::Found{};
 }

@@ -98,7 +98,9 @@ void look_at_balloon(const CouplingModel& model, const core::State& rods, const 
   if (own.inserted_m < near_m) return;
   const Vector3d p_near = point_from_tip(rod, own, near_m), p_far = point_from_tip(rod, own, far_m);
   const double between_m = near_m - far_m;
-  const int wire_cell = cell_of_its_wire(model, rods, t, x);
+  int wire_cell = cell_of_its_wire(model, rods, t, x);
+  if (wire_cell < 0 && was_branch >= 0)
+    wire_cell = model.physiology.flow.tree.branches[static_cast<std::size_t>(was_branch)].last - 1;
   auto seat = seat_at_ostium(model, x.locator, p_far, between_m, held ? 0 : between_m / 2, wire_cell);
   if (!seat) seat = seat_of(x.locator, model.physiology.flow.tree, model.treatment.paths, p_near, p_far, wire_cell);
   // What the wall holds is not let go of because a beat throws its shaft aside for a moment; nor does a balloon that is
