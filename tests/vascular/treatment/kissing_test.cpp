@@ -196,8 +196,6 @@ TEST(Kissing, LeavesAnOvalStentThatOneLargeBalloonRounds) {
   EXPECT_GT(oval, 0.55);
   EXPECT_LT(oval, 0.80) << "bench 0.72";
   f.round(0);
-  std::printf("rounded: narrow %.2f apart %.0f of %.0f, area %.1f of %.1f\n", f.narrow(), 100 * f.malapposed(),
-              100 * apart, f.area_mm2(), chosen_mm2);
   EXPECT_GT(f.narrow(), 0.88);
   EXPECT_LT(f.malapposed(), 0.05) << "bench 33 to 0.6 %";
   EXPECT_GT(f.area_mm2(), 1.15 * chosen_mm2);
@@ -210,7 +208,6 @@ TEST(Kissing, TheLargeBalloonLeavesAGapShortOfTheCarinaAndNarrowsTheBranchPastIt
     f.stent();
     f.round(beyond_mm * mm);
     apart.push_back(f.malapposed()), obstructed.push_back(f.obstructed());
-    std::printf("at %.0f: apart %.0f %%, obstructed %.0f %%\n", beyond_mm, 100 * apart.back(), 100 * obstructed.back());
   }
   EXPECT_GT(apart[0], apart[1]);
   EXPECT_GE(apart[1], apart[2]);
@@ -223,8 +220,6 @@ TEST(Kissing, OpensTheCellAndPushesTheCarinaBack) {
   f.round(3 * mm);
   const double closed = f.obstructed(), cell_m = f.cell_m();
   f.kiss();
-  std::printf("obstructed %.0f to %.0f, cell %.2f to %.2f mm\n", 100 * closed, 100 * f.obstructed(), 1e3 * cell_m,
-              1e3 * f.cell_m());
   EXPECT_LT(f.obstructed(), closed / 2);
   EXPECT_LT(cell_m, 0.6 * mm);
   EXPECT_GT(f.cell_m(), 0.85 * 1.4 * mm) << "less than the balloon's radius";
