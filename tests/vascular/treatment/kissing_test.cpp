@@ -191,8 +191,6 @@ TEST(Kissing, LeavesAnOvalStentThatOneLargeBalloonRounds) {
   EXPECT_GT(apart, 0.3) << "it was chosen for the distal vessel";
   f.kiss();
   const double oval = f.narrow();
-  std::printf("kissed: narrow %.2f, apart %.0f %%, %.1f mm2; cell %.2f mm\n", oval, 100 * f.malapposed(), f.area_mm2(),
-              1e3 * f.cell_m());
   EXPECT_GT(oval, 0.55);
   EXPECT_LT(oval, 0.80) << "bench 0.72";
   f.round(0);
