@@ -102,6 +102,7 @@ struct Beside {
   std::span<const double> radius_m;          ///< of the other one at the sphere's place; 0: it is not there
   std::span<const Eigen::Vector2d> aside_m;  ///< and how far it lies aside
   std::span<const double> lumen_m;           ///< of both (SideBySide)
+  double to_m = 0;                           ///< along the path: beyond it they lie in vessels of their own
 };
 
 struct BalloonInputs {
