@@ -311,8 +311,8 @@ BalloonReport step(const BalloonModel& m, const PlaqueModel& plaque, const Ballo
       if (a <= 0) continue;
       const int i =
           std::clamp(static_cast<int>(std::lround((in.path->s_m[k] - sphere_position(m, s, 0)) / ds)), 0, n - 1);
-      const double outer =
-          side_by_side(a, beside_m(in, i), s.flat_rad[i]).lumen_m + (is_sleeved(in, i) ? in.sleeve.thickness_m : 0);
+      const double b = in.path->s_m[k] <= in.beside.to_m ? beside_m(in, i) : 0;
+      const double outer = side_by_side(a, b, s.flat_rad[i]).lumen_m + (is_sleeved(in, i) ? in.sleeve.thickness_m : 0);
       if (outer > wall.radius_m[in.path->cells[k]]) push_wall(plaque, in.path->cells[k], outer, wall);
       narrowest_gap = std::min(narrowest_gap, wall.radius_m[in.path->cells[k]] - outer);
     }

@@ -39,7 +39,7 @@ Beside look_beside(const TreatmentModel& model, const TreatmentInputs& in, const
   x.lumen_m.assign(s.balloons[k].radius_m.begin(), s.balloons[k].radius_m.end());
   const BalloonModel& own = *balloon_of(model, in.balloons[k]);
   const VesselPath* path = path_of(model, in.balloons[k]);
-  bool any = false;
+  double beside_to_m = -1;
   for (int other = 0; other < most_balloons && path; ++other) {
     const BalloonModel* its = balloon_of(model, in.balloons[other]);
     const VesselPath* its_path = path_of(model, in.balloons[other]);
@@ -51,12 +51,12 @@ Beside look_beside(const TreatmentModel& model, const TreatmentInputs& in, const
       if (at_m > to_m) break;
       x.beside_m[i] = radius_at(*its, s.balloons[other], at_m);
       if (x.beside_m[i] <= 0) continue;
-      any = true;
+      beside_to_m = to_m;
       x.beside_aside_m[i] = aside_at_m(*its, s.balloons[other], at_m);
       x.lumen_m[i] = side_by_side(s.balloons[k].radius_m[i], x.beside_m[i], s.balloons[k].flat_rad[i]).lumen_m;
     }
   }
-  return any ? Beside{x.beside_m, x.beside_aside_m, x.lumen_m} : Beside{};
+  return beside_to_m < 0 ? Beside{} : Beside{x.beside_m, x.beside_aside_m, x.lumen_m, beside_to_m};
 }
 
 /// Releases the contents of a burst balloon into the vessel.

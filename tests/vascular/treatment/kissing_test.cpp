@@ -199,6 +199,18 @@ TEST(Kissing, LeavesAnOvalStentThatOneLargeBalloonRounds) {
   EXPECT_GT(f.area_mm2(), 1.15 * chosen_mm2);
 }
 
+TEST(Kissing, StretchesNoDaughterByBothBalloons) {
+  ForkedBench f;
+  for (VesselPath& path : f.model.paths)
+    for (std::size_t k = 40; k < path.cells.size(); ++k) path.s_m[k] -= 0.29 * mm;  // it begins close to the fork
+  f.place(0, ForkedBench::main_kiss, 1, f.carina_m + 3.5 * mm);
+  f.place(1, ForkedBench::side_kiss, 2, f.carina_m + 3.5 * mm);
+  f.run(10, 6);
+  for (std::size_t c = 40; c < f.tree.cells.size(); ++c)
+    EXPECT_LT(f.state.wall.peak_m[c], 1.02 * std::max(1.5 * mm, f.tree.cells[c].healthy_m)) << c;
+  EXPECT_GT(f.state.wall.peak_m[37], 1.9 * mm) << "both lie in the left main";
+}
+
 TEST(Kissing, TheLargeBalloonLeavesAGapShortOfTheCarinaAndNarrowsTheBranchPastIt) {
   std::vector<double> apart, obstructed;
   for (const double beyond_mm : {-3.0, -1.0, 0.0, 3.0}) {
