@@ -121,8 +121,9 @@ TEST(Script, MistakesAreNamedByLine) {
   const std::string points = "\"tip_points\": \"left\", \"within_deg\": 20";
   EXPECT_EQ(script_refusal(points, "\"tip_on\": \"LAD\""), "accepted");
   EXPECT_EQ(script_refusal(points, "\"tip_astray\": \"LAD\", \"by_mm\": 5"), "accepted");
-  EXPECT_EQ(script_refusal(points, "\"distal_marker_at\": \"D1\", \"beyond_mm\": -0.5"), "accepted");
-  expect_words(script_refusal(points, "\"distal_marker_at\": \"D1\""), {"small.json:12:", "beyond_mm is missing"});
+  const std::string of_wire = points + ", \"of\": \"wire\"";
+  EXPECT_EQ(script_refusal(of_wire, "\"distal_marker_at\": \"D1\", \"beyond_mm\": -0.5"), "accepted");
+  expect_words(script_refusal(of_wire, "\"distal_marker_at\": \"D1\""), {"small.json:12:", "beyond_mm is missing"});
   expect_words(script_refusal(points, "\"tip_astray\": \"LAD\""), {"small.json:12:", "by_mm is missing"});
   expect_words(script_refusal(points, "\"tip_on\": \"LAD\", \"by_mm\": 5"), {"small.json:12:", "by_mm"});
   expect_words(script_refusal("{ \"seconds\": 3 }", "{ \"seconds\": 3, \"beats\": 2 }"),
