@@ -19,9 +19,9 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double before_m = 6e-3, beyond_m = 2e-3;  // of the camera before the branch; of what it looks at in it
+constexpr double before_m = 4e-3, beyond_m = 4e-3;  // of the camera before the branch; of what it looks at in it
 constexpr double near_m = 30e-3;                    // of what is drawn
-constexpr double half_angle = 0.8;                  // tangent of half the picture's angle
+constexpr double half_angle = 1.0;                  // tangent of half the picture's angle
 constexpr double lamp_m = 7e-3;                     // at which its light has halved
 constexpr int samples = 2;                          // a side, per pixel
 const Vector3d wall_rgb(225, 120, 105), strut_rgb(235, 235, 245), rod_rgb(120, 150, 190);

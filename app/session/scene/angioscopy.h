@@ -13,7 +13,7 @@ struct Angioscopy {
   std::vector<std::uint8_t> rgb;  ///< 3 * pixels * pixels bytes, rows from the top
 };
 
-/// From the middle of a branch's parent, 6 mm before the branch leaves it, towards the branch's mouth. Throws LoadError
+/// From the middle of a branch's parent, 4 mm before the branch leaves it, towards the branch's mouth. Throws LoadError
 /// for what is no side branch of the coronary arteries. Takes a few seconds.
 Angioscopy look_inside(const SessionModel& model, const SessionState& state, const std::string& branch, int pixels);
 
