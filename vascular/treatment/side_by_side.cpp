@@ -23,15 +23,18 @@ Equal flattened(double beta) {
   return {rho, 2 * pi * rho + 4 * rho * c, beta > 0 ? rho * area_1_rad / length_1_rad : 0};
 }
 
-/// The lumen's radius where they are free (H), and where they are squeezed to the end.
+/// The lumen's radius where they are free (H), and where they are squeezed to the end, with their derivatives by a.
 struct Limits {
-  double hull_m, round_m;
+  double hull_m, hull_by_a, round_m, round_by_a;
 };
 Limits limits(double a, double b) {
   static const double k = std::log(2) / std::log(flattened(pi / 2).length / (2 * pi));
   const double t = std::asin((a - b) / (a + b)), most = std::max(a, b);
-  return {(pi * (a + b) + 2 * t * (a - b) + 4 * std::sqrt(a * b)) / (2 * pi),
-          most * std::pow(std::pow(a / most, k) + std::pow(b / most, k), 1 / k)};
+  const double round_m = most * std::pow(std::pow(a / most, k) + std::pow(b / most, k), 1 / k);
+  return {.hull_m = (pi * (a + b) + 2 * t * (a - b) + 4 * std::sqrt(a * b)) / (2 * pi),
+          .hull_by_a = (pi + 2 * t + 2 * std::cos(t)) / (2 * pi),
+          .round_m = round_m,
+          .round_by_a = std::pow(a / round_m, k - 1)};
 }
 /// How much of the way from there is left.
 double left(const Equal& now) {
@@ -57,13 +60,11 @@ Table make_table() {
 
 SideBySide side_by_side(double a, double b, double beta) {
   if (b <= 0) return {a, 1, 1, 0};
-  static const double k = std::log(2) / std::log(flattened(pi / 2).length / (2 * pi));
   const Equal equal = flattened(beta);
   const Limits end = limits(a, b);
-  const double t = std::asin((a - b) / (a + b)), share = left(equal);
-  const double hull_by_a = (pi + 2 * t + 2 * std::cos(t)) / (2 * pi), round_by_a = std::pow(a / end.round_m, k - 1);
+  const double share = left(equal);
   return {.lumen_m = share * end.hull_m + (1 - share) * end.round_m,
-          .by_a = share * hull_by_a + (1 - share) * round_by_a,
+          .by_a = share * end.hull_by_a + (1 - share) * end.round_by_a,
           .narrow = 1 / (1 + std::cos(beta) * std::min(a, b) / std::max(a, b)),
           .apart_m = (a + b) * equal.arc * std::cos(beta)};
 }

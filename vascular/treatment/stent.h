@@ -9,9 +9,9 @@
 ///   h = sqrt(l^2 - chord^2)
 /// and shrinks as it opens. Two balloons side by side leave a ring that is not round; its radius is that of a circle of
 /// its length, and one balloon that fills it makes it round again (side_by_side.h). A balloon through one of its cells
-/// pushes the points that are in its way aside, for good. Links join crowns that point the
-/// same way and so keep the rings apart: a stent foreshortens at its ends. Points are positioned along the vessel by
-/// relaxing struts and links as springs; compressed links stay compressed.
+/// pushes the points that are in its way aside, for good. Links join crowns that point the same way and so keep the
+/// rings apart: a stent foreshortens at its ends. Points are positioned along the vessel by relaxing struts and links
+/// as springs; compressed links stay compressed.
 #include "vascular/treatment/balloon.h"
 #include "vascular/treatment/stent_design.h"
 

@@ -141,14 +141,14 @@ CouplingState make_coupling(const Vessel& vessel);
 std::vector<int> add_devices(const std::vector<SessionTool>& tools, std::uint64_t seed,
                              vascular::TreatmentModel& model);
 
-/// The balloon that came into the body first and is still there, with what treatment keeps of it; null: there is none.
+/// A balloon in the body, with what treatment keeps of it; null: there is none.
 struct BalloonInBody {
   const CoupledBalloon* place = nullptr;
   const vascular::BalloonState* state = nullptr;
   double gauge_Pa = 0;  ///< of its inflation device
   explicit operator bool() const { return place != nullptr; }
 };
-/// By the order in which they came in: 0 or 1.
+/// `nth`: 0 the one that came into the body first and is still there, 1 the other.
 BalloonInBody balloon_in_body(const CouplingState& state, const vascular::TreatmentState& treatment,
                               const DeliveryInputs& inputs, int nth);
 /// The place of a tool's balloon; -1: it is not in the body.

@@ -153,7 +153,7 @@ constexpr std::array<Handling, data::action_kinds> handling_of = [] {
 
 const Handling& handling(const data::ScriptStep& step) { return handling_of[static_cast<std::size_t>(step.action)]; }
 
-/// "12", "12 and 8", "none is on a balloon in the body".
+/// "12", "12 and 8", "its balloon is not in the body".
 std::string gauges(const Step& step, const ConditionEvaluator& e) {
   std::string out;
   for (int nth = 0; nth < vascular::most_balloons; ++nth)
