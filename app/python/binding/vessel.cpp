@@ -81,7 +81,7 @@ int sphere_at(const VesselHandle& self, const std::string& place) {
   for (const std::string& name : self.vessel->way->places()) known += (known.empty() ? "" : ", ") + name;
   throw py::value_error(
       fmt::format("there is no place \"{}\" in {}; expected one of {}, or one of these and "
-                  "millimetres beyond: \"RCA+20\"",
+                  "millimetres beyond, \"RCA+20\", or before, \"D1-4\"",
                   place, self.vessel->name, known));
 }
 
@@ -212,7 +212,8 @@ left, y to the head, z to the front. Raises OstiumError for a case that is not t
               "Names that `sphere` knows.")
           .def("sphere", sphere_at, py::arg("place"),
                "Number of the sphere at a place: a branch, a named place, or one of these and millimetres beyond, "
-               "\"RCA+20\". Raises ValueError with the names there are.")
+               "\"RCA+20\", or before the place where it leaves its vessel, \"D1-4\". Raises ValueError with the names "
+               "there are.")
           .def(
               "locate",
               [](const VesselHandle& self, const Eigen::Vector3d& point, double phase) {

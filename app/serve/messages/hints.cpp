@@ -15,15 +15,16 @@ using data::ConditionKind;
 using data::ScriptAction;
 using units::degree;
 
-/// "RCA+20": 20 mm down the right coronary.
+/// "RCA+20": 20 mm down the right coronary; "D1-4": 4 mm before the D1.
 std::string place_words(const std::string& place) {
-  const auto plus = place.find('+');
-  std::string branch = place.substr(0, plus);
+  const auto sign = place.find_first_of("+-");
+  std::string branch = place.substr(0, sign);
   for (const auto& [code, name] :
        {std::pair{"RCA", "right coronary"}, {"LM", "left main"}, {"sinuses", "pockets above the valve"}})
     if (branch == code) branch = name;
   const std::string where = "the " + branch;
-  return plus == std::string::npos ? where : place.substr(plus + 1) + " mm down " + where;
+  if (sign == std::string::npos) return where;
+  return place.substr(sign + 1) + (place[sign] == '+' ? " mm down " : " mm before ") + where;
 }
 
 /// What holds, as the end of "until ...".

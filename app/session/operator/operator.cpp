@@ -45,7 +45,7 @@ void require_subject(const data::ScriptCondition& c, const SessionModel& model) 
   for (const std::string& name : way.places()) known += (known.empty() ? "" : ", ") + name;
   for (const data::ScriptLandmark& landmark : script.landmarks) known += ", " + landmark.name;
   refuse(c, fmt::format("there is no place \"{}\" in this vessel; expected one of: {}; or with millimetres beyond a "
-                        "branch's origin, as RCA+20",
+                        "branch's origin, as RCA+20, or before it leaves its vessel, as D1-4",
                         c.place, known));
 }
 

@@ -167,15 +167,30 @@ int VesselIndex::place(const std::string& name) const {
   for (const auto& [known, sphere] : named_)
     if (known == name) return sphere;
   if (const int whole = entry(name); whole >= 0) return whole;
-  const std::size_t plus = name.rfind('+');
-  if (plus == std::string::npos) return -1;
-  const std::optional<double> beyond_mm = data::decimal(std::string_view(name).substr(plus + 1));
-  const int from = entry(name.substr(0, plus));
-  if (from < 0 || !beyond_mm || *beyond_mm < 0) return -1;
-  const double beyond_m = 1e-3 * *beyond_mm;
+  const std::size_t sign = name.find_last_of("+-");
+  if (sign == std::string::npos) return -1;
+  const std::optional<double> mm = data::decimal(std::string_view(name).substr(sign + 1));
+  const int from = entry(name.substr(0, sign));
+  if (from < 0 || !mm || *mm < 0) return -1;
+  return name[sign] == '+' ? place_beyond(from, 1e-3 * *mm) : place_before(from, 1e-3 * *mm);
+}
+
+int VesselIndex::place_beyond(int from, double by_m) const {
   for (int n = 0; n < static_cast<int>(nodes_.size()); ++n)
-    if (branch(n) == branch(from) && beyond(n, from) && from_access_m(n) - from_access_m(from) >= beyond_m) return n;
+    if (branch(n) == branch(from) && beyond(n, from) && from_access_m(n) - from_access_m(from) >= by_m) return n;
   return -1;
+}
+
+int VesselIndex::place_before(int entered, double by_m) const {
+  const vascular::TreeBranch& it = branches()[static_cast<std::size_t>(branch(entered))];
+  if (it.parent < 0) return -1;
+  const int from = offset_[static_cast<std::size_t>(it.parent)] + it.parent_sphere;
+  int best = -1;
+  for (int n = 0; n < static_cast<int>(nodes_.size()); ++n)
+    if (beyond(from, n) && from_access_m(from) - from_access_m(n) >= by_m &&
+        (best < 0 || from_access_m(n) > from_access_m(best)))
+      best = n;
+  return best;
 }
 
 std::vector<std::string> VesselIndex::places() const {

@@ -34,8 +34,8 @@ class VesselIndex {
   int branch(int sphere) const { return nodes_[static_cast<std::size_t>(sphere)].branch; }
   const std::vector<vascular::TreeBranch>& branches() const { return frames_.front().branches; }
 
-  /// The sphere of a place: a name, a branch (where it leaves its parent), or a branch plus millimetres beyond its
-  /// origin: "RCA+20". -1: there is none.
+  /// The sphere of a place: a name, a branch (where it leaves its parent), or a branch and millimetres, "RCA+20" beyond
+  /// its origin, "D1-4" before the place where it leaves, along the vessel it leaves. -1: there is none.
   int place(const std::string& name) const;
   /// The sphere where a branch begins for an instrument coming from the access; -1: there is none.
   int entry(const std::string& branch) const;
@@ -57,6 +57,8 @@ class VesselIndex {
     int first = 0, last = 0;  ///< depth-first numbers: [first, last) are this sphere and all beyond
   };
   std::size_t frame_at(double phase) const;
+  int place_beyond(int from, double by_m) const;
+  int place_before(int entered, double by_m) const;  ///< `entered`: the entry of a branch
   /// Distance of a point from a sphere's surface in this frame's branches; negative within it.
   double apart_m(const Eigen::Vector3d& point, const std::vector<vascular::TreeBranch>& all, std::size_t branch,
                  std::size_t sphere, double breath) const;

@@ -51,6 +51,14 @@ TEST(CaseVessel, PlacesLieInTheOrderOfTheWayFromTheGroin) {
   EXPECT_TRUE(way.beyond(way.place("LAD"), way.place("LM")));
   EXPECT_FALSE(way.beyond(way.place("left subclavian"), sinuses));
   EXPECT_NEAR(way.from_access_m(way.place("RCA+20")) - way.from_access_m(way.place("RCA")), 0.02, 1.5e-3);
+  const vascular::TreeBranch& D1 = way.branches()[static_cast<std::size_t>(way.branch(way.place("D1")))];
+  const vascular::TreeBranch& LAD = way.branches()[static_cast<std::size_t>(D1.parent)];
+  ASSERT_EQ(LAD.name, "LAD");
+  const int before = way.place("D1-4");
+  EXPECT_EQ(way.branch(before), way.branch(way.place("LAD")));
+  EXPECT_NEAR((way.p(before, 0) - LAD.spheres[D1.parent_sphere].p).norm(), 4e-3, 1.5e-3);
+  EXPECT_EQ(way.branch(way.place("LAD-3")), way.branch(way.place("LM")));
+  for (const char* none : {"right iliac-4", "D1-", "D1--4", "D1+-4", "-4"}) EXPECT_EQ(way.place(none), -1) << none;
 }
 
 TEST(CaseVessel, TheHeartKeepsItsTime) {
