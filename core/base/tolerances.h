@@ -44,6 +44,7 @@ inline constexpr double wall_loose_m = 0.1e-6;  // depth at which a node is tied
 inline constexpr double followed_m = 5e-6;      // depth at which a wall found by continuous collision counts
 inline constexpr double spared_m = 50e-6;       // most that such a wall pushes a node away from its start
 inline constexpr double passed_wall_m = 20e-6;  // behind a plane on a path that meets no wall: the wall ended
+inline constexpr double same_point_m = 1e-8;    // between nearest points of triangles that meet there
 inline constexpr double same_wall = 0.999;      // cosine between planes that replace one another
 inline constexpr double about_same_wall = 0.9;  // ... between a plane and the wall that it stands for
 inline constexpr double same_side = 0.5;        // ... between two views of one wall from the same side

@@ -24,8 +24,7 @@ bool is_in_the_way(const Model& model, const Strand& strand, int i, const V3<dou
   view.reach *= 2;
   const Surface::Triangle& triangle = surface.triangles[wall.triangle];
   SeenTriangle sight;
-  if (!see(surface, surface.clusters[wall.cluster], triangle, pose.after, view, sight) ||
-      dot(sight.normal, wall.normal) < tolerances::same_side)
+  if (!see_again(wall, triangle, pose.after, view, sight) || dot(sight.normal, wall.normal) < tolerances::same_side)
     return true;
   WallPlane seen = plane_of(surface, view, triangle, pose, pose.after, sight);
   const NodeWalls& walls = strand.contact->walls[i];
@@ -35,7 +34,7 @@ bool is_in_the_way(const Model& model, const Strand& strand, int i, const V3<dou
         other.place - dot(other.normal, to) > seen.place - dot(seen.normal, to) - tolerances::wall_loose_m)
       return false;
   }
-  seen.gap = wall.gap;
+  seen.gap = wall.gap, seen.facing = wall.facing;
   seen.surface = wall.surface, seen.cluster = wall.cluster, seen.triangle = wall.triangle;
   wall = seen;
   return true;
@@ -175,7 +174,7 @@ bool has_turned(const Model& model, const Strand& strand, int i, const V3<double
   NodeView view = view_of(strand.s->inside, *strand.own, i, to, 0);
   view.reach *= 2;
   SeenTriangle sight;
-  return !see(surface, surface.clusters[wall.cluster], surface.triangles[wall.triangle], pose.after, view, sight) ||
+  return !see_again(wall, surface.triangles[wall.triangle], pose.after, view, sight) ||
          dot(sight.normal, wall.normal) < 0;
 }
 

@@ -37,12 +37,16 @@ struct SeenTriangle {
   TrianglePoint point;
   V3<double> foot, normal;  ///< m; normal into the lumen
   double gap = 0;           ///< m, negative behind the wall
+  double facing = 1;        ///< as of WallPlane
   bool at_rim = false;      ///< the nearest point is on the triangle's rim
 };
 
-/// False if the triangle is out of reach.
-bool see(const Surface& surface, const Surface::Cluster& c, const Surface::Triangle& t, const Field<3>& now,
-         const NodeView& view, SeenTriangle& sight);
+/// False if the triangle is out of reach. Its own face says on which side the ball is.
+bool see(const Surface::Triangle& t, const Field<3>& now, const NodeView& view, SeenTriangle& sight);
+
+/// The same for a ball that has gone on in sight of the triangle: round its rim it stays on its side.
+bool see_again(const WallPlane& was, const Surface::Triangle& t, const Field<3>& now, const NodeView& view,
+               SeenTriangle& sight);
 
 /// The plane of that triangle.
 WallPlane plane_of(const Surface& surface, const NodeView& view, const Surface::Triangle& t, const ClusterPose& pose,

@@ -20,7 +20,8 @@ struct WallPlane {
   double stay = 0;       ///< N/m of the tie along `across`: in a hollow the force turns with the node, as on a pendulum
   V3<double> carried;    ///< m, displacement of the wall in the step
   double friction = 0;
-  double gap = 0;     ///< m, at the beginning of the step; negative: pressed into a soft wall
+  double gap = 0;     ///< m, at the beginning of the step; negative: behind it
+  double facing = 1;  ///< cosine between its triangle's normal and the way from the nearest point to the node, 0 to 1
   bool soft = false;  ///< the wall has finite stiffness
   bool active = false;
   /// The triangle, if its nearest point is on its rim: from another position the plane is different.
