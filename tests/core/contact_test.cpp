@@ -303,6 +303,53 @@ TEST(Contact, WhatLiesBeyondABrinkHoldsNothing) {
   }
 }
 
+/// A knife that stands in the lumen, its edge along x at the origin; in all frames but the first it is turned about it.
+SurfaceDescription knife(double half_angle_rad, double turned_rad) {
+  constexpr int rows = 30;
+  SurfaceDescription wall;
+  wall.frames.resize(6);
+  for (std::size_t f = 0; f < wall.frames.size(); ++f) {
+    const Eigen::AngleAxisd turn(f == 0 ? 0 : turned_rad, Vector3d::UnitX());
+    for (int i = 0; i < rows; ++i)
+      for (const double side : {-1.0, 0.0, 1.0})
+        wall.frames[f].push_back(turn * Vector3d(0.7e-3 * i - 5e-3, side * 3e-3 * std::sin(half_angle_rad),
+                                                 -std::fabs(side) * 3e-3 * std::cos(half_angle_rad)));
+  }
+  for (int i = 0; i + 1 < rows; ++i)
+    for (int j = 0; j < 2; ++j) {
+      const int a = 3 * i + j, b = a + 1, c = a + 3, d = a + 4;
+      wall.triangles.push_back({a, b, d}), wall.triangles.push_back({a, d, c});
+    }
+  return wall;
+}
+
+/// A wire beside a ridge, as sharp as a carina between two branches, is in the lumen wherever it lies round the edge,
+/// and however the ridge has turned with the heart.
+TEST(Contact, ASharpRidgeHoldsNothingThatLiesBesideIt) {
+  const double half_angle = pi / 18;
+  RodDescription d = steel_wire({.elements = 6, .length_m = 0.006, .gravity = false});
+  d.sections[0].radius_m = 0.3e-3;
+  for (const double turned : {0.0, 0.9, 2.0, 3.1})
+    for (double angle = half_angle + 0.9; angle < 2 * pi - half_angle - 0.9; angle += 0.07) {
+      Model model;
+      model.gravity_W.setZero();
+      model.rods = {make_rod(d)};
+      model.surfaces = {std::make_shared<Surface>(make_surface(knife(half_angle, turned)))};
+      EndState base = along_x();
+      base.p_W = Eigen::AngleAxisd(turned + angle, Vector3d::UnitX()) * Vector3d(0, 0, -0.42e-3);
+      State state = make_state(model, {base});
+      Inputs inputs;
+      inputs.rods.resize(1), inputs.surfaces.resize(1);
+      inputs.surfaces[0].frame_before = inputs.surfaces[0].frame_after = 3;
+      Scratch scratch(model);
+      StepReport report;
+      step(model, inputs, state, scratch, report);
+      EXPECT_TRUE(report.touches.empty()) << "turned by " << turned << ", at " << angle;
+      for (int i = 0; i < model.rods[0].nodes(); ++i)
+        EXPECT_LT((state.rods[0].position[i] - base.p_W - Vector3d(1e-3 * i, 0, 0)).norm(), 1e-9);
+    }
+}
+
 /// A door across the middle of a tube: thin instruments pass it while it is open, and only then.
 TEST(Contact, ADoorLetsThinInstrumentsThroughWhileItIsOpen) {
   SurfaceDescription wall = straight_tube(3e-3);
