@@ -330,13 +330,13 @@ TEST(Contact, ASharpRidgeHoldsNothingThatLiesBesideIt) {
   RodDescription d = steel_wire({.elements = 16, .length_m = 0.008, .gravity = false});
   d.sections[0].radius_m = 0.3e-3;
   for (const double turned : {0.0, 0.9, 2.0, 3.1})
-    for (double angle = half_angle + 0.9; angle < 2 * pi - half_angle - 0.9; angle += 0.07) {
+    for (double angle = half_angle + 1.0; angle < 2 * pi - half_angle - 1.0; angle += 0.07) {
       Model model;
       model.gravity_W.setZero();
       model.rods = {make_rod(d)};
       model.surfaces = {std::make_shared<Surface>(make_surface(knife(half_angle, turned)))};
       EndState base = along_x();
-      base.p_W = Eigen::AngleAxisd(turned + angle, Vector3d::UnitX()) * Vector3d(0, 0, -0.42e-3);
+      base.p_W = Eigen::AngleAxisd(turned + angle, Vector3d::UnitX()) * Vector3d(0, 0, -0.38e-3);
       State state = make_state(model, {base});
       Inputs inputs;
       inputs.rods.resize(1), inputs.surfaces.resize(1);
