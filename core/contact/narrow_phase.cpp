@@ -244,6 +244,8 @@ void look(const Model& model, int at_surface, int cluster, const ClusterPose& po
     const Surface::Triangle& t = surface.triangles[triangle];
     SeenTriangle sight;
     if ((passes && t.door) || !see(t, now, view, sight)) continue;
+    // Of a ridge farther away, only one of its faces may be within reach, as each cluster's reach differs.
+    if (is_doubtful(sight) && -sight.gap > view.radius + tolerances::wall_slack_m) continue;
     const int place = make_room(sight, surface.stiffness_N_m2 > 0, walls);
     if (place < 0) continue;
     WallPlane& plane = walls.planes[place];
