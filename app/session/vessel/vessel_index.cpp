@@ -11,6 +11,21 @@ namespace ostium::app {
 
 using Eigen::Vector3d;
 
+namespace {
+
+constexpr double beside_mouth_m = 10e-3, narrowed = 0.8;
+
+/// The parent's radius where a branch leaves it, as it would be without a narrowing there, which moves no mouth.
+double radius_at_mouth(const vascular::TreeBranch& parent, int at) {
+  const vascular::TreeSphere& there = parent.spheres[static_cast<std::size_t>(at)];
+  double widest_m = 0;
+  for (const vascular::TreeSphere& sphere : parent.spheres)
+    if ((sphere.p - there.p).norm() < beside_mouth_m) widest_m = std::max(widest_m, sphere.radius_m);
+  return there.radius_m < narrowed * widest_m ? widest_m : there.radius_m;
+}
+
+}  // namespace
+
 VesselIndex::VesselIndex(std::vector<vascular::SphereTree> frames, const Vector3d& p_access,
                          const std::vector<std::pair<std::string, Vector3d>>& named,
                          std::vector<std::vector<Vector3d>> breath)
@@ -18,6 +33,8 @@ VesselIndex::VesselIndex(std::vector<vascular::SphereTree> frames, const Vector3
   const std::vector<vascular::TreeBranch>& all = branches();
   for (std::size_t b = 0; b < all.size(); ++b) {
     offset_.push_back(static_cast<int>(nodes_.size()));
+    const double mouth_m =
+        all[b].parent < 0 ? 0 : radius_at_mouth(all[static_cast<std::size_t>(all[b].parent)], all[b].parent_sphere);
     for (std::size_t s = 0; s < all[b].spheres.size(); ++s) {
       Node& node = nodes_.emplace_back();
       node.branch = static_cast<int>(b), node.in_branch = static_cast<int>(s);
@@ -25,7 +42,7 @@ VesselIndex::VesselIndex(std::vector<vascular::SphereTree> frames, const Vector3
       const vascular::TreeSphere& from = all[static_cast<std::size_t>(all[b].parent)].spheres[all[b].parent_sphere];
       // A branch that continues its parent's line (LAD after LM) is outside the parent at once.
       node.inside_parent = s + 1 < all[b].spheres.size() && (s == 0 || nodes_[nodes_.size() - 2].inside_parent) &&
-                           (all[b].spheres[s].p - from.p).norm() < from.radius_m;
+                           (all[b].spheres[s].p - from.p).norm() < mouth_m;
     }
   }
   std::vector<std::vector<int>> neighbours(nodes_.size());
@@ -92,9 +109,11 @@ VesselIndex::Departure VesselIndex::departure(int sphere, double phase) const {
   const std::vector<vascular::TreeSphere>& parent = all[static_cast<std::size_t>(it.parent)].spheres;
   const int from = it.parent_sphere, last = static_cast<int>(parent.size()) - 1;
   const Vector3d along = (parent[std::min(from + 1, last)].p - parent[std::max(from - 1, 0)].p).normalized();
-  int out = offset_[static_cast<std::size_t>(branch(sphere))];
+  // The branch's own line: the parent's is off the middle where a plaque lies on one side.
+  const int first = offset_[static_cast<std::size_t>(branch(sphere))];
+  int out = first + 1;
   while (nodes_[static_cast<std::size_t>(out)].inside_parent) ++out;
-  const Vector3d to = p(out, phase) - parent[from].p;
+  const Vector3d to = p(out, phase) - p(first, phase);
   return {along, (to - to.dot(along) * along).normalized()};
 }
 
