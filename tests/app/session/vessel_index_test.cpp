@@ -63,8 +63,25 @@ TEST(VesselIndex, KnowsWhatIsBeyondWhat) {
   EXPECT_NEAR(leaves.side.y(), 1, 1e-9);
   EXPECT_TRUE(way.departure(middle, 0).side.isZero()) << "a trunk leaves nothing";
   EXPECT_EQ(way.place("trunk"), at(0.1, 0)) << "for whom comes from the access";
-  for (const char* none : {"twig", "branch+", "branch+500", "branch+x", "branch-3"})
+  for (const char* none : {"twig", "branch+", "branch+500", "branch+x", "branch-", "branch-60", "trunk-3"})
     EXPECT_EQ(way.place(none), -1) << none;
+  EXPECT_NEAR(way.p(way.place("branch-3"), 0).x(), 0.053, 1e-9) << "before it, for whom comes from the access";
+}
+
+/// A plaque on one side of the trunk leaves a narrow lumen off the middle; the branch leaves where it does all the
+/// same.
+TEST(VesselIndex, APlaqueMovesNoMouth) {
+  vascular::TreeBranch trunk{.name = "trunk", .spheres = {}},
+      branch{.name = "branch", .parent = 0, .parent_sphere = 50, .spheres = {}};
+  for (int i = 0; i <= 100; ++i) {
+    const double plaque = std::abs(i - 50) < 8 ? 1 : 0;
+    trunk.spheres.push_back({{1e-3 * i, 0, 3e-3 * plaque}, 5e-3 - 3e-3 * plaque, 1e-3 * i});
+  }
+  for (int i = 0; i <= 40; ++i) branch.spheres.push_back({{0.05, 1e-3 * i, 0}, 2e-3, 1e-3 * i});
+  const VesselIndex way({{.branches = {trunk, branch}}}, Eigen::Vector3d(0, 0, 0), {});
+  EXPECT_NEAR(way.p(way.entry("branch"), 0).y(), 4e-3, 1e-9) << "as the sphere 5 mm from the lumen's middle";
+  EXPECT_EQ(way.branch(way.locate({0.05, 0.5e-3, 1.5e-3}, 0)), 0) << "in the trunk's lumen";
+  EXPECT_NEAR(way.departure(way.entry("branch"), 0).side.y(), 1, 1e-9);
 }
 
 }  // namespace
