@@ -58,9 +58,12 @@ bool is_doubtful(const SeenTriangle& sight) { return sight.gap < 0 && sight.at_r
 /// one that is listed; else it is removed.
 bool faces_more_squarely(const SeenTriangle& sight, NodeWalls& walls) {
   for (int k = 0; k < walls.count; ++k) {
-    const WallPlane& w = walls.planes[k];
-    if (!(w.gap * sight.gap < 0) || norm(w.gap * w.normal - sight.gap * sight.normal) > tolerances::same_point_m)
+    WallPlane& w = walls.planes[k];
+    if (norm(w.gap * w.normal - sight.gap * sight.normal) > tolerances::same_point_m) continue;
+    if (w.gap * sight.gap > 0) {
+      w.facing = largest(w.facing, sight.facing);  // it stands for both
       continue;
+    }
     if (w.facing >= sight.facing) return false;
     std::copy(walls.planes + k + 1, walls.planes + walls.count, walls.planes + k);
     --walls.count;
