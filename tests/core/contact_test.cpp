@@ -324,6 +324,49 @@ SurfaceDescription knife(double half_angle_rad, double turned_rad) {
   return wall;
 }
 
+/// A thorn in the lumen, its tip at the origin: faces as many as at a corner of a ridge, some of which a node beside
+/// the tip sees edge on.
+SurfaceDescription thorn(double half_angle_rad, std::mt19937& random) {
+  constexpr int sides = 9;
+  std::uniform_real_distribution<double> u(0, 1);
+  SurfaceDescription wall;
+  wall.frames.resize(1);
+  wall.frames[0].emplace_back(Vector3d::Zero());
+  for (int i = 0; i < sides; ++i) {
+    const double a = 2 * pi * (i + 0.6 * u(random)) / sides, length_m = 1e-3 * (2 + u(random));
+    wall.frames[0].push_back(length_m * Vector3d(std::sin(half_angle_rad) * std::cos(a),
+                                                 std::sin(half_angle_rad) * std::sin(a), -std::cos(half_angle_rad)));
+  }
+  for (int i = 0; i < sides; ++i) wall.triangles.push_back({0, 1 + (i + 1) % sides, 1 + i});
+  std::shuffle(wall.triangles.begin(), wall.triangles.end(), random);
+  return wall;
+}
+
+/// Where the tip of a wire that comes along x lies beside a thorn's tip, it is in the lumen, from whichever side.
+TEST(Contact, AThornHoldsNothingThatLiesBesideIt) {
+  std::mt19937 random(3);
+  RodDescription d = steel_wire({.elements = 16, .length_m = 0.008, .gravity = false});
+  d.sections[0].radius_m = 0.3e-3;
+  for (int n = 0; n < 200; ++n) {
+    Model model;
+    model.gravity_W.setZero();
+    model.rods = {make_rod(d)};
+    SurfaceDescription wall = thorn(0.3, random);
+    const Vector3d points = Vector3d::Random().normalized();
+    const Eigen::Quaterniond turn = Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), points);
+    if (points.x() > -0.35) continue;  // beside its flank, or where its foot is
+    for (Vector3d& p : wall.frames[0]) p = turn * p + Vector3d(8.38e-3, 0, 0);
+    model.surfaces = {std::make_shared<Surface>(make_surface(wall))};
+    State state = make_state(model, {along_x()});
+    Inputs inputs;
+    inputs.rods.resize(1), inputs.surfaces.resize(1);
+    Scratch scratch(model);
+    StepReport report;
+    step(model, inputs, state, scratch, report);
+    EXPECT_TRUE(report.touches.empty()) << n << ": " << points.transpose();
+  }
+}
+
 /// A wire beside a ridge, as sharp as a carina between two branches, is in the lumen wherever it lies round the edge,
 /// and however the ridge has turned with the heart.
 TEST(Contact, ASharpRidgeHoldsNothingThatLiesBesideIt) {
