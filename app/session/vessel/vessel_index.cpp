@@ -204,6 +204,7 @@ int VesselIndex::place_before(int entered, double by_m) const {
   const vascular::TreeBranch& it = branches()[static_cast<std::size_t>(branch(entered))];
   if (it.parent < 0) return -1;
   const int from = offset_[static_cast<std::size_t>(it.parent)] + it.parent_sphere;
+  if (from_access_m(from) > from_access_m(entered)) return -1;  // it comes before the vessel that it leaves
   int best = -1;
   for (int n = 0; n < static_cast<int>(nodes_.size()); ++n)
     if (beyond(from, n) && from_access_m(from) - from_access_m(n) >= by_m &&
