@@ -111,7 +111,7 @@ VesselIndex::Departure VesselIndex::departure(int sphere, double phase) const {
   const Vector3d along = (parent[std::min(from + 1, last)].p - parent[std::max(from - 1, 0)].p).normalized();
   // The branch's own line: the parent's is off the middle where a plaque lies on one side.
   const int first = offset_[static_cast<std::size_t>(branch(sphere))];
-  int out = first + 1;
+  int out = std::min(first + 1, first + static_cast<int>(it.spheres.size()) - 1);
   while (nodes_[static_cast<std::size_t>(out)].inside_parent) ++out;
   const Vector3d to = p(out, phase) - p(first, phase);
   return {along, (to - to.dot(along) * along).normalized()};
