@@ -24,7 +24,7 @@ bool is_in_the_way(const Model& model, const Strand& strand, int i, const V3<dou
   view.reach *= 2;
   const Surface::Triangle& triangle = surface.triangles[wall.triangle];
   SeenTriangle sight;
-  if (!see_again(wall, triangle, pose.after, view, sight) || dot(sight.normal, wall.normal) < tolerances::same_side)
+  if (!see_again(surface, wall, pose.after, view, sight) || dot(sight.normal, wall.normal) < tolerances::same_side)
     return true;
   WallPlane seen = plane_of(surface, view, triangle, pose, pose.after, sight);
   const NodeWalls& walls = strand.contact->walls[i];
@@ -174,8 +174,7 @@ bool has_turned(const Model& model, const Strand& strand, int i, const V3<double
   NodeView view = view_of(strand.s->inside, *strand.own, i, to, 0);
   view.reach *= 2;
   SeenTriangle sight;
-  return !see_again(wall, surface.triangles[wall.triangle], pose.after, view, sight) ||
-         dot(sight.normal, wall.normal) < 0;
+  return !see_again(surface, wall, pose.after, view, sight) || dot(sight.normal, wall.normal) < 0;
 }
 
 }  // namespace

@@ -15,6 +15,17 @@ constexpr double rounding_share = 1e-6;  ///< rounding margin of the single-prec
 
 bool is_at_rim(const TrianglePoint& w) { return !(w.u > 0 && w.v > 0 && w.u + w.v < 1); }
 
+/// Outward direction at the rim of a soft wall's triangle: the normals of the surrounding triangles, averaged. A node
+/// pressed in is behind all of them (join_soft_walls).
+V3<double> rim_outward(const Surface& surface, const Surface::Cluster& c, const Surface::Triangle& t,
+                       const TrianglePoint& w) {
+  const auto corner = [&](int k) {
+    const V3<float>& n = surface.corner_normals[c.first_corner + t.corner[k]];
+    return V3<double>{n.x, n.y, n.z};
+  };
+  return madd(w.v, corner(2), madd(w.u, corner(1), (1 - w.u - w.v) * corner(0)));
+}
+
 /// Unit vector around the instrument; zero where it meets the wall head on.
 V3<double> across(const NodeView& view, const V3<double>& normal) {
   const V3<double> e = cross(view.tangent, normal);
@@ -51,7 +62,7 @@ int least_needed(const NodeWalls& walls, const V3<double>& normal, int at) {
 
 /// Whether a triangle is seen from behind across its rim. Another one that meets it there may be seen from the front.
 bool is_doubtful(const WallPlane& w) { return w.gap < 0 && w.facing < 1; }
-bool is_doubtful(const SeenTriangle& sight) { return sight.gap < 0 && sight.at_rim; }
+bool is_doubtful(const SeenTriangle& sight) { return sight.gap < 0 && sight.facing < 1; }
 
 /// At a ridge, triangles whose nearest point is the same may disagree on the node's side. The one that faces it most
 /// squarely is right (at an edge: the node lies between the two faces' normals, less than pi apart). False if that is
@@ -75,7 +86,7 @@ bool faces_more_squarely(const SeenTriangle& sight, NodeWalls& walls) {
 /// Makes room among a node's planes, sorted by distance, at most one per direction. Index of the new one; -1 if it is
 /// not needed.
 int make_room(const SeenTriangle& sight, bool soft, NodeWalls& walls) {
-  if (!faces_more_squarely(sight, walls)) return -1;
+  if (!soft && !faces_more_squarely(sight, walls)) return -1;
   const bool doubtful = is_doubtful(sight);
   const auto as_it_faces = [&](const WallPlane& w) {
     return doubtful == is_doubtful(w) && dot(w.normal, sight.normal) > tolerances::same_wall;
@@ -198,7 +209,8 @@ WallPlane plane_of(const Surface& surface, const NodeView& view, const V3<double
   return plane;
 }
 
-bool see(const Surface::Triangle& t, const Field<3>& now, const NodeView& view, SeenTriangle& sight) {
+bool see(const Surface& surface, const Surface::Cluster& c, const Surface::Triangle& t, const Field<3>& now,
+         const NodeView& view, SeenTriangle& sight) {
   const V3<double> a = load3<double>(now, t.corner[0]), b = load3<double>(now, t.corner[1]),
                    d = load3<double>(now, t.corner[2]);
   const V3<double> out = cross(b - a, d - a);
@@ -210,16 +222,17 @@ bool see(const Surface::Triangle& t, const Field<3>& now, const NodeView& view, 
   const double apart = norm(away);
   if (apart > view.reach) return false;
   sight.at_rim = is_at_rim(sight.point);
-  const double along = dot(away, out);
+  const bool soft = surface.stiffness_N_m2 > 0;
+  const double along = dot(away, soft && sight.at_rim ? rim_outward(surface, c, t, sight.point) : out);
   sight.gap = along > 0 ? -apart : apart;
   sight.normal = apart > 1e-9 ? (1 / sight.gap) * away : (-1 / std::sqrt(area2)) * out;
-  sight.facing = sight.at_rim && apart > 1e-9 ? std::fabs(along) / (apart * std::sqrt(area2)) : 1;
+  sight.facing = !soft && sight.at_rim && apart > 1e-9 ? std::fabs(along) / (apart * std::sqrt(area2)) : 1;
   return true;
 }
 
-bool see_again(const WallPlane& was, const Surface::Triangle& t, const Field<3>& now, const NodeView& view,
+bool see_again(const Surface& surface, const WallPlane& was, const Field<3>& now, const NodeView& view,
                SeenTriangle& sight) {
-  if (!see(t, now, view, sight)) return false;
+  if (!see(surface, surface.clusters[was.cluster], surface.triangles[was.triangle], now, view, sight)) return false;
   if (sight.at_rim && was.gap * sight.gap < 0) sight.gap = -sight.gap, sight.normal = -1.0 * sight.normal;
   return true;
 }
@@ -246,7 +259,7 @@ void look(const Model& model, int at_surface, int cluster, const ClusterPose& po
     const int triangle = c.first_triangle + std::countr_zero(left);
     const Surface::Triangle& t = surface.triangles[triangle];
     SeenTriangle sight;
-    if ((passes && t.door) || !see(t, now, view, sight)) continue;
+    if ((passes && t.door) || !see(surface, c, t, now, view, sight)) continue;
     // Of a ridge farther away, only one of its faces may be within reach, as each cluster's reach differs.
     if (is_doubtful(sight) && -sight.gap > view.radius + tolerances::wall_slack_m) continue;
     const int place = make_room(sight, surface.stiffness_N_m2 > 0, walls);

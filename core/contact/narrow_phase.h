@@ -41,11 +41,13 @@ struct SeenTriangle {
   bool at_rim = false;      ///< the nearest point is on the triangle's rim
 };
 
-/// False if the triangle is out of reach. Its own face says on which side the ball is.
-bool see(const Surface::Triangle& t, const Field<3>& now, const NodeView& view, SeenTriangle& sight);
+/// False if the triangle is out of reach. Its own face says on which side the ball is; of a soft wall, at its rim, all
+/// faces round it do.
+bool see(const Surface& surface, const Surface::Cluster& c, const Surface::Triangle& t, const Field<3>& now,
+         const NodeView& view, SeenTriangle& sight);
 
-/// The same for a ball that has gone on in sight of the triangle: round its rim it stays on its side.
-bool see_again(const WallPlane& was, const Surface::Triangle& t, const Field<3>& now, const NodeView& view,
+/// The triangle of a plane again, by a ball that has gone on in sight of it: round its rim it stays on its side.
+bool see_again(const Surface& surface, const WallPlane& was, const Field<3>& now, const NodeView& view,
                SeenTriangle& sight);
 
 /// The plane of that triangle.

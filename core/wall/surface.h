@@ -68,8 +68,9 @@ struct Surface {
   int frames = 0;
   /// [cluster][frame][x, y, z][corner of it], m: in the order in which it is read.
   std::vector<float, OnHugePages<float>> corner_frames;
-  std::vector<float> corner_sway;  ///< [cluster][x, y, z][corner of it], m; empty: it does not sway
-  std::vector<int> corner_vertex;  ///< [corner], as described
+  std::vector<float> corner_sway;         ///< [cluster][x, y, z][corner of it], m; empty: it does not sway
+  std::vector<int> corner_vertex;         ///< [corner], as described
+  std::vector<V3<float>> corner_normals;  ///< [corner], outwards, of the first frame: of soft walls, to tell the side
   int corners = 0;
   std::vector<Node> nodes;
   std::vector<Box, OnHugePages<Box>> boxes;  ///< [interval][node]

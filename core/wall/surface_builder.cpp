@@ -167,6 +167,11 @@ class Builder {
                 static_cast<float>(d_.sway[out_.corner_vertex[c.first_corner + i]][axis]);
     }
     for (Surface::Cluster& c : out_.clusters) c.stands_still = stands_still(out_, c);
+    if (!(d_.stiffness_N_m2 > 0)) return;
+    for (int v : out_.corner_vertex) {
+      const Eigen::Vector3f n = normals_[v].cast<float>();
+      out_.corner_normals.push_back({n[0], n[1], n[2]});
+    }
   }
 
   void make_boxes() {
