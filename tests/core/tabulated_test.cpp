@@ -18,7 +18,7 @@ namespace {
 /// Softens, stays soft, stiffens beyond what it was.
 BendingCurve curve() { return {4, {1.5, 4, 6, 9}, {1, 0.3, 0.25, 1.4}}; }
 
-RodDescription wire(const BendingCurve& bending) {
+RodDescription wire_with(const BendingCurve& bending) {
   RodDescription d{
       "wire", {round_section(0, 0.2, 0.18e-3, 0, 60e9, 0.3, 6450)}, std::vector<double>(100, 2e-3), {}, {}};
   d.sections[0].bending = bending;
@@ -26,7 +26,7 @@ RodDescription wire(const BendingCurve& bending) {
 }
 
 Tabulated law_of(double K1, double K2) {
-  RodDescription d = wire(curve());
+  RodDescription d = wire_with(curve());
   d.sections[0].EI1_N_m2 = K1, d.sections[0].EI2_N_m2 = K2;
   return std::get<Tabulated>(make_rod(d).law);
 }
@@ -78,14 +78,15 @@ TEST(Tabulated, LanesAndDoublesAgreeToTheBit) {
 }
 
 TEST(Tabulated, ARodWithoutACurveHasNotTheLawAndWrongCurvesAreRefused) {
-  EXPECT_TRUE(std::holds_alternative<LinearElastic>(make_rod(wire({})).law));
-  EXPECT_NEAR(stiffness_at_rest(make_rod(wire(curve())), 50).x(), stiffness_at_rest(make_rod(wire({})), 50).x(), 1e-9);
+  EXPECT_TRUE(std::holds_alternative<LinearElastic>(make_rod(wire_with({})).law));
+  EXPECT_NEAR(stiffness_at_rest(make_rod(wire_with(curve())), 50).x(),
+              stiffness_at_rest(make_rod(wire_with({})), 50).x(), 1e-9);
   BendingCurve bad = curve();
   bad.tangent[1] = 0;
-  EXPECT_THROW(make_rod(wire(bad)), std::invalid_argument);
+  EXPECT_THROW(make_rod(wire_with(bad)), std::invalid_argument);
   bad = curve(), bad.curvature_per_m[2] = 3;
-  EXPECT_THROW(make_rod(wire(bad)), std::invalid_argument);
-  RodDescription both = wire(curve());
+  EXPECT_THROW(make_rod(wire_with(bad)), std::invalid_argument);
+  RodDescription both = wire_with(curve());
   both.sections[0].softening_per_m = 3, both.sections[0].softened_ratio = 0.5;
   EXPECT_THROW(make_rod(both), std::invalid_argument);
 }
