@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "app/session/coupling/device_constraints.h"
 #include "app/session/coupling/looks.h"
 #include "app/session/coupling/tool_geometry.h"
 #include "core/base/units.h"
@@ -152,14 +153,19 @@ double drawn_m3_s(const CouplingModel& model, const DeliveryInputs& inputs, cons
   return vascular::drawn_m3_s(inputs.aspiration_m3_s, line_of(guide), s.filled_m);
 }
 
-vascular::TreatmentInputs treatment_inputs(const CouplingModel& model, const DeliveryInputs& inputs,
-                                           const CouplingState& s) {
+vascular::TreatmentInputs treatment_inputs(const CouplingModel& model, const core::State& rods,
+                                           const vascular::TreatmentState& treatment, const DeliveryInputs& inputs,
+                                           const vascular::LumenMoment& moment, const CouplingState& s) {
   vascular::TreatmentInputs out;
   for (int k = 0; k < vascular::most_balloons; ++k) {
     const CoupledBalloon& own = s.balloons[k];
+    const vascular::BalloonState& body = treatment.balloons[k];
+    const double shaft_m = own.branch >= 0 && body.held && treatment.balloon_in[k] == own.balloon
+                               ? body.seat_m - ahead_of_shaft_m(model, rods, body, own, moment)
+                               : own.middle_m;
     out.balloons[k] = {.balloon = own.balloon,
                        .branch = own.branch,
-                       .shaft = {own.middle_m, own.aside_m, own.bend_1_m, std::numeric_limits<double>::infinity()},
+                       .shaft = {shaft_m, own.aside_m, own.bend_1_m, std::numeric_limits<double>::infinity()},
                        .gauge_Pa = k == s.first ? inputs.gauge_Pa : inputs.second_gauge_Pa,
                        .drag_N = own.drag_N + own.caught_N};
   }

@@ -187,8 +187,10 @@ void look(const CouplingModel& model, const core::State& rods, const vascular::T
 void press_with_wire(const CouplingModel& model, const core::StepReport& report, double step_s, CouplingState& state);
 /// What is drawn out of the guide, and so out of the body, m3/s: its lumen and what lies in it decide.
 double drawn_m3_s(const CouplingModel& model, const DeliveryInputs& inputs, const CouplingState& state);
-vascular::TreatmentInputs treatment_inputs(const CouplingModel& model, const DeliveryInputs& inputs,
-                                           const CouplingState& state);
+/// `moment`: at which rods and wall are now.
+vascular::TreatmentInputs treatment_inputs(const CouplingModel& model, const core::State& rods,
+                                           const vascular::TreatmentState& treatment, const DeliveryInputs& inputs,
+                                           const vascular::LumenMoment& moment, const CouplingState& state);
 /// Sets contrast and pressure; the caller sets the heart's inputs and the occupied cross-sections.
 void set_physiology_inputs(const CouplingModel& model, const DeliveryInputs& inputs, const CouplingState& state,
                            vascular::PhysiologyInputs& to);

@@ -5,6 +5,12 @@
 
 namespace ostium::app {
 
+/// How far the body of a balloon that the wall holds lies ahead of its place on its shaft, along the artery: the mean
+/// of what both markers see. Body and shaft pull each other by this one measure; by two, they would drive each other
+/// along.
+double ahead_of_shaft_m(const CouplingModel& model, const core::State& rods, const vascular::BalloonState& body,
+                        const CoupledBalloon& placed, const vascular::LumenMoment& moment);
+
 /// What an open balloon that the wall holds does to its shaft, along the artery, in the step that ends at `moment`.
 std::array<core::Tether, core::max_tethers> tethers_on_shaft(const CouplingModel& model, const core::State& rods,
                                                              const vascular::TreatmentState& treatment,

@@ -266,9 +266,11 @@ void treat(const SessionModel& model, const SessionInputs& inputs, bool R_wave, 
     look(coupling, state.rods, state.treatment, report.rods, moment(model, state), *x.coupling, state.coupling);
   }
   press_with_wire(coupling, report.rods, model.step_s(), state.coupling);
-  report.treatment =
-      step(model.treatment, treatment_inputs(coupling, inputs.delivery, state.coupling), model.step_s(),
-           state.treatment, {model.physiology.flow, state.blood, x.physiology_inputs.occupied_m}, x.treatment);
+  report.treatment = step(
+      model.treatment,
+      treatment_inputs(coupling, state.rods, state.treatment, inputs.delivery, moment(model, state), state.coupling),
+      model.step_s(), state.treatment, {model.physiology.flow, state.blood, x.physiology_inputs.occupied_m},
+      x.treatment);
   for (int k = 0; k < vascular::most_balloons; ++k) state.coupling.balloons[k].blocked = report.treatment.blocked[k];
   if (model.bed && state.rods.step % look_every == 0) {
     find_artery_loads(coupling, report.rods, state.treatment, report.treatment, state.blood.heart.phase, state.coupling,
