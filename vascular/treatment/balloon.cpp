@@ -242,7 +242,8 @@ BalloonReport step(const BalloonModel& m, const PlaqueModel& plaque, const Ballo
   for (auto* v : {&x.below, &x.middle, &x.above, &x.right, &x.unit, &x.back_N_m, &x.back_N_m2}) v->assign(n, 0);
   if (s.pressure_Pa > burst_Pa(m)) s.burst = true;
   const bool was_filled = s.was_filled;
-  double along = 0, pressed = 0;
+  Along along;
+  double ring_N = 0;
   Eigen::Vector2d aside = Eigen::Vector2d::Zero();
   for (int i = 0; i < n; ++i) {
     const double a = s.radius_m[i], share = sphere_share(m, i), at = sphere_position(m, s, i);
@@ -261,8 +262,11 @@ BalloonReport step(const BalloonModel& m, const PlaqueModel& plaque, const Ballo
       add(w.p_Pa, w.slope_Pa_m);
       report.touches = report.touches || w.p_Pa > 0;
       const double before = s.radius_m[std::max(i - 1, 0)], after = s.radius_m[std::min(i + 1, n - 1)];
-      along += w.p_Pa * 2 * pi * a * (after - before) / 2;
-      pressed += w.p_Pa * 2 * pi * a * ds;
+      const double fixed_Pa = sleeved ? meets * in.sleeve.fixed_Pa[i] : 0;
+      along.axial_N += (w.p_Pa + fixed_Pa) * 2 * pi * a * (after - before) / 2;
+      if (beside_m(in, i) > 0) along.beside_N += (w.p_Pa + fixed_Pa) * 2 * a * ds;  // twice the tension round both
+      along.pressed_N += w.p_Pa * 2 * pi * a * ds;
+      ring_N += fixed_Pa * 2 * pi * a * ds;
       if (const double off = s.aside_m[i].norm(); off > 0) aside -= x.back_N_m[i] * ds / off * s.aside_m[i];
     }
     flatten(outside, in, dt, i, s);
@@ -302,9 +306,13 @@ BalloonReport step(const BalloonModel& m, const PlaqueModel& plaque, const Ballo
   if (s.pressure_Pa > m.unfolding_Pa) s.was_filled = true;
   s.inflated_s = gauge > atm ? s.inflated_s + dt : 0;
   if (in.path) {
-    slide(m, in.shaft, along, pressed, dt, s);
+    // What rings it presses hold to others, it is held by, as far as they do not slip on it.
+    along.links_N = std::min(in.sleeve.links_N, m.friction * ring_N);
+    const double seat_m = s.seat_m;
+    slide(m, in.shaft, along, dt, s);
+    report.slid_m = s.seat_m - seat_m;
     if (!in.shaft.aside_m.empty()) lie_aside(m, in.shaft, in.beside, dt, x, s);
-    report.axial_N = along, report.pressed_N = pressed, report.aside_N = aside.norm();
+    report.axial_N = along.axial_N, report.pressed_N = along.pressed_N, report.aside_N = aside.norm();
     double narrowest_gap = 1;
     for (std::size_t k = 0; k < in.path->cells.size(); ++k) {
       const double a = radius_at(m, s, in.path->s_m[k]);

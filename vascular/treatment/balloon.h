@@ -95,6 +95,8 @@ struct Sleeve {
   double thickness_m = 0;                    ///< between balloon and wall
   std::span<const double> covers;            ///< 1 where the sleeve is
   std::span<const double> inner_m;           ///< its inner radius, below which there is no contact
+  std::span<const double> fixed_Pa;          ///< of that pressure, what stents exert that do not go along
+  double links_N = 0;                        ///< with which those hold on to each other, ring by ring
 };
 
 /// Another balloon in the same lumen. Empty, or one value per sphere.
@@ -115,11 +117,12 @@ struct BalloonInputs {
 
 struct BalloonReport {
   double gauge_Pa = 0;
-  double axial_N = 0;                   ///< axial force of the wall on the shaft; positive distally
+  double axial_N = 0;                   ///< axial force of wall and stents on the shaft; positive distally
   double pressed_N = 0;                 ///< sum of the wall's radial force
   double aside_N = 0;                   ///< what the wall pushes it aside with, in all: its bonds bear that
   double waist = 0;                     ///< narrowest over widest between the markers; below 1: a waist
   double dog_bone = 0;                  ///< radius of the wider end over that of the middle
+  double slid_m = 0;                    ///< in this step, along the wall; positive distally
   double spilt_m3 = 0;                  ///< released into the vessel by bursting in this step
   bool touches = false, seals = false;  ///< contact with the wall; contact all round, which blocks flow
 };

@@ -133,16 +133,16 @@ void lie_aside(const BalloonModel& m, const ShaftPlace& shaft, const Beside& bes
   }
 }
 
-void slide(const BalloonModel& m, const ShaftPlace& shaft, double along_N, double pressed_N, double dt,
-           BalloonState& s) {
-  const double bond = 1 / (1 / m.bond_N_m + 1 / shaft.holds_N_m), holds = m.friction * pressed_N;
-  s.held = pressed_N > 0;
+void slide(const BalloonModel& m, const ShaftPlace& shaft, const Along& along, double dt, BalloonState& s) {
+  const double bond = 1 / (1 / m.bond_N_m + 1 / shaft.holds_N_m);
+  const double holds = m.friction * (along.pressed_N + along.beside_N) + along.links_N;
+  s.held = holds > 0;
   s.holds_N = std::min(holds, most_N);
   if (!s.held) return;
   // Its shaft drags it as fast as it moves, the wall pushes it slowly.
   const double reach_m = s.holds_N / bond;
   s.seat_m = std::clamp(s.seat_m, shaft.middle_m - reach_m, shaft.middle_m + reach_m);
-  const double wanted = along_N + bond * (shaft.middle_m - s.seat_m);
+  const double wanted = along.axial_N + bond * (shaft.middle_m - s.seat_m);
   if (const double over = std::fabs(wanted) - holds; over > 0)
     s.seat_m += std::copysign(over, wanted) * dt / (m.slide_N_s_m + bond * dt);
 }

@@ -8,7 +8,8 @@
 /// bonds, and of the shaft where it presses on the skin from inside; W the wall's law round the circle that lies aside:
 ///   W = integral of p(a + y cos f) cos f a df
 /// Its radius answers as if it lay in the middle: a side that alone touches is borne by the shaft's own contact.
-/// Along: friction by Coulomb holds it against the wall's cone and the pull of its shaft.
+/// Along: friction by Coulomb holds it against the cone of wall and stents and the pull of its shaft. In a stent it
+/// takes the rings that it presses along, so that their links hold it, too.
 #include "vascular/treatment/balloon.h"
 
 namespace ostium::vascular {
@@ -25,8 +26,11 @@ CircleAside press_circle(const WallLaw& wall, double from_m, double a_m, double 
 void lie_aside(const BalloonModel& model, const ShaftPlace& shaft, const Beside& beside, double dt_s,
                BalloonScratch& scratch, BalloonState& state);
 
-/// `along_N` and `pressed_N` as in BalloonReport.
-void slide(const BalloonModel& model, const ShaftPlace& shaft, double along_N, double pressed_N, double dt_s,
-           BalloonState& state);
+/// What moves and holds it along the wall: as in BalloonReport and Sleeve, and what presses it and another beside it
+/// together, which is on a shaft of its own and taken as resting.
+struct Along {
+  double axial_N = 0, pressed_N = 0, links_N = 0, beside_N = 0;
+};
+void slide(const BalloonModel& model, const ShaftPlace& shaft, const Along& along, double dt_s, BalloonState& state);
 
 }  // namespace ostium::vascular

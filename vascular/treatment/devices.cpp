@@ -153,7 +153,8 @@ void step_stents(const TreatmentModel& model, const TreatmentInputs& in, const T
       if (mine) inputs.carried_by = &s.balloons[k], inputs.drag_N = placed.drag_N;
       if (beside_to_m >= 0) inputs.edge_N = in.edge_N;
       if (placed.balloon >= 0 && !report.blocked[k] && (mine || beside_to_m >= 0))
-        inside[count++] = {balloon_of(model, placed), &s.balloons[k], mine ? endless_m : beside_to_m};
+        inside[count++] = {balloon_of(model, placed), &s.balloons[k], mine ? endless_m : beside_to_m,
+                           report.balloons[k].slid_m};
       if (placed.balloon >= 0 && !report.blocked[k] && beside_to_m >= 0 && beside_to_m < endless_m)
         inputs.through = way_through(model, placed, s.balloons[k], beside_to_m);
     }

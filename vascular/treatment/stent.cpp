@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "core/base/units.h"
+#include "vascular/treatment/carried_rings.h"
 #include "vascular/treatment/side_by_side.h"
 
 namespace ostium::vascular {
@@ -36,21 +37,16 @@ WallPressure hoop(const StentModel& m, double rest, double r) {
   return out;
 }
 
-double ring_middle(const StentModel& m, const StentState& s, int ring) {
-  double sum = 0;
-  for (int j = 0; j < 2 * m.crowns; ++j) sum += s.along_m[ring * 2 * m.crowns + j];
-  return s.middle_m + s.shift_m + sum / (2 * m.crowns);
-}
-
 /// The rings on both sides of a position, and the share of the way between them; false beyond the ends.
 bool between(const StentModel& m, const StentState& s, double s_m, int& ring, double& share) {
-  const double first = ring_middle(m, s, 0) - m.height_m / 2, last = ring_middle(m, s, m.rings - 1) + m.height_m / 2;
+  const double first = ring_middle_m(m, s, 0) - m.height_m / 2,
+               last = ring_middle_m(m, s, m.rings - 1) + m.height_m / 2;
   if (s_m < first || s_m > last) return false;
   ring = 0, share = 0;
-  double below = ring_middle(m, s, 0);
+  double below = ring_middle_m(m, s, 0);
   if (s_m <= below) return true;
   for (; ring + 1 < m.rings; ++ring) {
-    const double above = ring_middle(m, s, ring + 1);
+    const double above = ring_middle_m(m, s, ring + 1);
     if (s_m < above) {
       share = (s_m - below) / (above - below);
       return true;
@@ -111,6 +107,12 @@ std::pair<double, double> span_of(const StentState& s) {
   return {s.middle_m + s.shift_m + *low, s.middle_m + s.shift_m + *high};
 }
 
+double ring_middle_m(const StentModel& m, const StentState& s, int ring) {
+  double sum = 0;
+  for (int j = 0; j < 2 * m.crowns; ++j) sum += s.along_m[ring * 2 * m.crowns + j];
+  return s.middle_m + s.shift_m + sum / (2 * m.crowns);
+}
+
 double inner_radius_at(const StentModel& m, const StentState& s, double s_m) {
   int ring;
   double share;
@@ -121,7 +123,7 @@ double inner_radius_at(const StentModel& m, const StentState& s, double s_m) {
 double narrowest_m(const StentModel& m, const StentState& s, double from_m, double to_m) {
   double least = 1;
   for (int k = 0; k < m.rings; ++k)
-    if (const double at = ring_middle(m, s, k); at >= from_m && at <= to_m) least = std::min(least, s.radius_m[k]);
+    if (const double at = ring_middle_m(m, s, k); at >= from_m && at <= to_m) least = std::min(least, s.radius_m[k]);
   return least;
 }
 
@@ -147,7 +149,8 @@ OpenedTo opened_to(std::span<const BalloonInside> inside, double s_m) {
 void add_sleeve(const StentModel& m, const StentState& s, const BalloonInside& balloon, std::span<const double> lumen_m,
                 StentScratch& x, Sleeve& sleeve) {
   if (sleeve.covers.empty())
-    for (auto* v : {&x.p_Pa, &x.slope_Pa_m, &x.covers, &x.inner_m}) v->assign(balloon_spheres, 0);
+    for (auto* v : {&x.p_Pa, &x.slope_Pa_m, &x.covers, &x.inner_m, &x.fixed_Pa}) v->assign(balloon_spheres, 0);
+  const bool fixed = s.where == StentState::deployed;
   for (int b = 0; b < balloon_spheres; ++b) {
     int ring;
     double share;
@@ -160,9 +163,11 @@ void add_sleeve(const StentModel& m, const StentState& s, const BalloonInside& b
     x.covers[b] = 1;
     x.inner_m[b] = std::max(x.inner_m[b], inner);
     x.p_Pa[b] += (1 - share) * one.p_Pa + share * two.p_Pa;
+    if (fixed) x.fixed_Pa[b] += (1 - share) * one.p_Pa + share * two.p_Pa;
     x.slope_Pa_m[b] += (1 - share) * one.slope_Pa_m + share * two.slope_Pa_m;
   }
-  sleeve = {x.p_Pa, x.slope_Pa_m, std::max(sleeve.thickness_m, m.strut_m), x.covers, x.inner_m};
+  sleeve = {x.p_Pa,    x.slope_Pa_m, std::max(sleeve.thickness_m, m.strut_m),          x.covers,
+            x.inner_m, x.fixed_Pa,   std::max(sleeve.links_N, fixed ? m.crush_N : 0.0)};
 }
 
 namespace {
@@ -172,7 +177,7 @@ void move_rings(const StentModel& m, const PlaqueModel& plaque, const StentInput
   double mean = 0;
   bool any_on = false;
   for (int k = 0; k < m.rings; ++k) {
-    const double at = ring_middle(m, s, k);
+    const double at = ring_middle_m(m, s, k);
     const OpenedTo opened = opened_to(in.inside, at);
     const double a = opened.radius_m;
     double& r = s.radius_m[k];
@@ -272,7 +277,7 @@ void step(const StentModel& m, const PlaqueModel& plaque, const StentInputs& in,
     }
   }
   move_rings(m, plaque, in, dt, s, wall);
-  if (s.where == StentState::deployed) crush(m, in, s);
+  if (s.where == StentState::deployed) crush(m, in, s), carry_rings(m, plaque, in, wall, s);
   settle_points(m, s);
   if (s.where == StentState::deployed) open_cell(m, in.through, s);
   if (!in.path) return;

@@ -89,6 +89,7 @@ struct BalloonInside {
   const BalloonModel* model = nullptr;
   const BalloonState* state = nullptr;
   double to_m = 1;
+  double slid_m = 0;  ///< in this step, along the wall; positive distally
 };
 /// What balloons open a lumen to at a place: the radius of its perimeter, and narrow over wide; 0: none is there.
 struct OpenedTo {
@@ -116,7 +117,7 @@ struct StentInputs {
 };
 
 struct StentScratch {
-  std::vector<double> p_Pa, slope_Pa_m, covers, inner_m;  ///< per sphere of the balloon
+  std::vector<double> p_Pa, slope_Pa_m, covers, inner_m, fixed_Pa;  ///< per sphere of the balloon
 };
 
 /// Adds a stent's resistance to the sleeve of a balloon in it; call before the balloon's step. `lumen_m`: to which each
@@ -135,7 +136,8 @@ double area_of_ring_m2(const StentState& state, int ring);
 /// Smallest radius between two positions.
 double narrowest_m(const StentModel& model, const StentState& state, double from_m, double to_m);
 
-/// Position of a point along the path.
+/// Position of a ring's middle and of a point along the path.
+double ring_middle_m(const StentModel& model, const StentState& state, int ring);
 double place_of_m(const StentState& state, int point);
 /// Angle of a point about the path, from side to up; the first crown is at the side direction.
 double angle_of(const StentModel& model, const StentState& state, int point);

@@ -20,7 +20,7 @@ struct StentDesign {
   double pressed_together = 0.55;  ///< smallest length of a compressed link, relative
   double viscous_Pa_s_m = 3e8;     ///< of the surrounding wall
   double held_N = 1.5;             ///< retention on its balloon when crimped [estimate]
-  double crush_N = 0.5;            ///< longitudinal force that compresses rings (Prabhu: 0.49 N)
+  double crush_N = 0.5;            ///< longitudinal force at which links give way (Prabhu, pressed together: 0.49 N)
 };
 
 }  // namespace ostium::vascular

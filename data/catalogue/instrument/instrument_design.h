@@ -48,8 +48,7 @@ inline const std::vector<DesignNumber<vascular::StentDesign>> stent_design_numbe
      "the least that links are pressed to, of their length"},
     {"viscous_Pa_s_m", &vascular::StentDesign::viscous_Pa_s_m, 1, 1e6, 1e11, "the damping of a ring in Pa s/m"},
     {"held_N", &vascular::StentDesign::held_N, 1, 0.01, 20, "the force in N that pulls it off its balloon"},
-    {"crush_N", &vascular::StentDesign::crush_N, 1, 0.01, 20,
-     "the load along it in N that presses its rings together"}};
+    {"crush_N", &vascular::StentDesign::crush_N, 1, 0.01, 20, "the load along it in N at which its links give way"}};
 
 inline const std::vector<DesignNumber<vascular::BalloonDesign>> balloon_design_numbers = {
     {"growth_mm_per_atm", &vascular::BalloonDesign::growth_m_Pa, 1e-3 / 101325, 1e-4, 0.5,
