@@ -186,6 +186,9 @@ int make_film(const Arguments& a, Replay& replay, Json& told) {
     for (std::size_t n = 0; n < names.size(); ++n) tell(names[n], runs.runs()[n].frames.size());
   }
   if (writer) tell(a.video, static_cast<std::size_t>(frames));
+  if (const double last_s = seconds(replay.model, replay.state);
+      a.films() && a.seconds > 0 && !interrupted && last_s < end_s - 1e-9 && !a.json)
+    fmt::print("The recording ends at {:.1f} s, before the {:g} s that were asked for.\n", last_s, a.seconds);
   if (a.png.empty() || still.shown_s < 0) return 0;
   data::write_png(a.png, still.picture);
   told["pictures"].push_back({{"file", a.png}, {"at_s", still.shown_s}});

@@ -70,7 +70,7 @@ std::vector<data::ReportPicture> pictures_of(Replay& replay, const data::RunReco
       if (static_cast<double>(replay.state.rods.step) * record.step_s >= before &&
           is_frame(replay.state.rods.step, options.frames_per_s, record.step_s))
         last = film.frame(replay.model, replay.state, replay.inputs);
-    if (last.grey.empty()) continue;
+    if (last.grey.empty()) last = film.frame(replay.model, replay.state, replay.inputs);
     const int minute = static_cast<int>(second) / 60;
     out.push_back({fmt::format("{}:{:04.1f} {}", minute, second - 60 * minute, moment.caption), data::png_of(last)});
   }
@@ -96,6 +96,7 @@ data::ReportRun run_of(Replay& replay, const std::string& code, const data::Scor
   run.software = replay.recording.software();
   run.outcome = "cut off", run.reason = "the recording has no end";
   for (const SessionTool& tool : replay.model.tools) run.tools.push_back(tool.name);
+  for (const data::ScriptStep& step : replay.setup.script.steps) run.marks.push_back(words_of_mark(step));
   run.record = record_of(replay.recording, replay.model);
   run.simulated_s = static_cast<double>(run.record.steps) * run.record.step_s;
   run.metrics = metrics_of(run.record);

@@ -20,6 +20,7 @@ struct ReportRun {
   std::uint64_t seed = 0;
   double simulated_s = 0;
   std::vector<std::string> tools;  ///< names
+  std::vector<std::string> marks;  ///< what a mark says, by step of the script
   RunRecord record;
   std::vector<Metric> metrics;
   std::vector<Score> scores;  ///< one for each item of the list
@@ -31,7 +32,8 @@ std::string report_page(const std::vector<ReportRun>& runs, const ScoreList& lis
 /// One row per run: code, case, script, seed, outcome, then every metric and every item of the list (1 met, 0 not met,
 /// empty: cannot be told from the recording).
 std::string report_csv(const std::vector<ReportRun>& runs, const ScoreList& list);
-/// A run's events: time, name, tool, value with its meaning, and "error" or "critical" for handling errors.
+/// A run's events: time, name, tool, value with its meaning, "error" or "critical" for handling errors, and what a mark
+/// says.
 std::string events_csv(const ReportRun& run);
 
 /// The face and content validity questionnaires of a validation study, as a page with forms whose answers are saved as

@@ -14,5 +14,7 @@ std::string events_table(const ReportRun& run);    ///< the first 400
 
 /// The event's tool; empty if it has none.
 std::string tool_of(const ReportRun& run, const RecordedEvent& event);
+/// What a mark says; empty for other events.
+std::string mark_of(const ReportRun& run, const RecordedEvent& event);
 
 }  // namespace ostium::data

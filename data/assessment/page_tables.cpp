@@ -71,6 +71,12 @@ std::string score_table(const std::vector<ReportRun>& runs, const ScoreList& lis
   return out + "</table>\n<p><button onclick=\"save('score','scores.csv')\">Save the list as CSV</button></p>\n";
 }
 
+std::string mark_of(const ReportRun& run, const RecordedEvent& event) {
+  if (event.code != EventCode::mark || !(event.value >= 0)) return "";
+  const auto step = static_cast<std::size_t>(event.value);
+  return step < run.marks.size() ? run.marks[step] : "";
+}
+
 std::string tool_of(const ReportRun& run, const RecordedEvent& event) {
   const auto i = static_cast<std::size_t>(event.tool);
   return event.tool >= 0 && i < run.tools.size() ? run.tools[i] : "";
@@ -95,17 +101,29 @@ std::string handling_table(const ReportRun& run) {
                     rows + "</table>\n");
 }
 
+namespace {
+
+/// ": what a mark says"
+std::string says(const ReportRun& run, const RecordedEvent& event) {
+  const std::string mark = mark_of(run, event);
+  return mark.empty() ? "" : ": " + escaped(mark);
+}
+
+}  // namespace
+
 std::string events_table(const ReportRun& run) {
   constexpr std::size_t most = 400;
   std::string out = "<h2>Events" + of_run(run) + "</h2>\n<table><tr><th>time</th><th>event</th><th>value</th></tr>\n";
   std::vector<RecordedEvent> events = events_of(run.record);
-  events.resize(std::min(events.size(), most));
+  const std::size_t more = events.size() - std::min(events.size(), most);
+  events.resize(events.size() - more);
   for (const RecordedEvent& e : events)
     if (const EventDefinition* d = definition_of(e.code))
       out += fmt::format(
-          "<tr><td class=\"n\">{}</td><td title=\"{}\">{}</td><td>{}</td></tr>\n", time_text(e.time_s),
-          escaped(d->definition), d->name,
+          "<tr><td class=\"n\">{}</td><td title=\"{}\">{}{}</td><td>{}</td></tr>\n", time_text(e.time_s),
+          escaped(d->definition), d->name, says(run, e),
           d->value.empty() ? "" : fmt::format("{:.4g} <span class=\"small\">{}</span>", e.value, escaped(d->value)));
+  if (more > 0) out += fmt::format("<tr><td></td><td>and {} more, in events.csv</td><td></td></tr>\n", more);
   return out + "</table>\n";
 }
 

@@ -47,6 +47,24 @@ MetricFunction time_on(EventCode on, EventCode off) {
   };
 }
 
+/// The beam of the fluoroscopy pedal: while both are down, the cine pedal's is on.
+double fluoroscopy_time_s(const RunRecord& r) {
+  using enum EventCode;
+  double steps = 0, since = 0;
+  bool fluoroscopy = false, cine = false;
+  const auto count_to = [&](double step) {
+    if (fluoroscopy && !cine) steps += step - since;
+    since = step;
+  };
+  for (const RecordedEvent& e : events_of(r)) {
+    count_to(e.step);
+    fluoroscopy = e.code == fluoroscopy_on || (fluoroscopy && e.code != fluoroscopy_off);
+    cine = e.code == cine_on || (cine && e.code != cine_off);
+  }
+  count_to(static_cast<double>(r.steps));
+  return steps * r.step_s;
+}
+
 /// Number of errors of at least that severity.
 MetricFunction errors_of(Severity least) {
   return [least](const RunRecord& r) {
@@ -212,7 +230,7 @@ std::vector<MetricDefinition> procedure_metrics() {
       {"stent_after_s", "s", lower,
        "from the first tool in the body until a stent is left in the first lesion's artery",
        time_until(stent_deployed)},
-      {"fluoroscopy_time_s", "s", lower, "pedal down, cine apart", time_on(fluoroscopy_on, fluoroscopy_off)},
+      {"fluoroscopy_time_s", "s", lower, "pedal down, cine apart", fluoroscopy_time_s},
       {"cine_time_s", "s", lower, "cine pedal down", time_on(cine_on, cine_off)},
       {"cine_runs", "1", lower, "times that the cine pedal went down", count_of(cine_on)},
       {"idle_beam_time_s", "s", lower,

@@ -30,14 +30,14 @@ std::string report_csv(const std::vector<ReportRun>& runs, const ScoreList& list
 }
 
 std::string events_csv(const ReportRun& run) {
-  std::string out = "time_s,event,tool,value,meaning,handling\n";
+  std::string out = "time_s,event,tool,value,meaning,handling,text\n";
   for (const RecordedEvent& e : events_of(run.record)) {
     const EventDefinition* d = definition_of(e.code);
     if (!d) continue;
     const std::string tool = tool_of(run, e);
-    out += fmt::format("{:.3f},{},{},{},{},{}\n", e.time_s, d->name, tool.empty() ? "" : csv_field(tool),
+    out += fmt::format("{:.3f},{},{},{},{},{},{}\n", e.time_s, d->name, tool.empty() ? "" : csv_field(tool),
                        d->value.empty() ? "" : fmt::format("{:.6g}", e.value), csv_field(d->value),
-                       severity_name(d->severity));
+                       severity_name(d->severity), csv_field(mark_of(run, e)));
   }
   return out;
 }

@@ -43,11 +43,16 @@ int locked(const std::string& beside, const std::string& path) {
 
 }  // namespace
 
-NewFile::NewFile(const std::string& path) : path_(path) {
+std::string behind_links(std::string path) {
   std::error_code none;
-  constexpr int most_links = 40;                                                   // as the kernel has it
-  for (int links = 0; links < most_links && fs::is_symlink(path_, none); ++links)  // whether there is a file or not yet
-    path_ = (fs::path(path_).parent_path() / fs::read_symlink(path_, none)).string();
+  constexpr int most_links = 40;  // as the kernel has it
+  for (int links = 0; links < most_links && fs::is_symlink(path, none); ++links)
+    path = (fs::path(path).parent_path() / fs::read_symlink(path, none)).string();
+  return path;
+}
+
+NewFile::NewFile(const std::string& path) : path_(behind_links(path)) {
+  std::error_code none;
   // A name may be as long as the file system takes: then the other is made of its beginning.
   const std::string ending = ".unfinished", name = fs::path(path_).filename().string();
   beside_ = path_.substr(0, path_.size() - name.size()) + name.substr(0, NAME_MAX - ending.size()) + ending;

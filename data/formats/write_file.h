@@ -35,6 +35,9 @@ class NewFile {
   int lock_ = -1;  ///< descriptor of `beside`
 };
 
+/// The file that links lead to, whether there is one or not yet; `path`, where it is no link.
+std::string behind_links(std::string path);
+
 /// Writes `bytes`. Throws WriteError; what was there is then as it was.
 void write_file(const std::string& path, std::string_view bytes);
 

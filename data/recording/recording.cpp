@@ -15,6 +15,7 @@
 
 #include "data/formats/decimal.h"
 #include "data/formats/load_error.h"
+#include "data/formats/paths.h"
 #include "data/formats/write_file.h"
 
 namespace ostium::data {
@@ -91,6 +92,15 @@ void rename_to(const std::string& path, const std::string& from) {
     throw WriteError(fmt::format("{}: cannot take the place of what was there: {}", path, std::strerror(errno)));
 }
 
+/// Where a recording of that name lies: it is renamed into its place, so of a link the file behind it is meant, and
+/// what is no file, such as a device, would be lost.
+std::string place_of(const std::string& path) {
+  const std::string place = behind_links(path);
+  if (is_there(place) && !is_file(place))
+    throw WriteError(fmt::format("{}: cannot be written: {}; name a file", path, why_no_file(place)));
+  return place;
+}
+
 }  // namespace
 
 /// Of a writer that could not begin, and has none of its own yet, whatever it left.
@@ -108,7 +118,7 @@ void RecordingWriter::write_both(const std::function<void(const std::string& pat
 }
 
 RecordingWriter::RecordingWriter(std::string path, const RecordingHeader& header, const std::vector<FixedTable>& tables)
-    : path_(std::move(path)), next_{path_ + ".next", own_}, before_{path_ + ".before", own_}, header_(header) {
+    : path_(place_of(path)), next_{path_ + ".next", own_}, before_{path_ + ".before", own_}, header_(header) {
   write_both([&](const std::string& to) {
     TableFile file = TableFile::create(to);
     file.set_text("schema", schema + std::to_string(recording_version));
@@ -157,7 +167,7 @@ void cut_short(TableFile& file, const RecordingHeader& header, std::size_t steps
 
 RecordingWriter::RecordingWriter(std::string path, const RecordingHeader& header, const std::string& from,
                                  std::size_t steps)
-    : path_(std::move(path)), next_{path_ + ".next", own_}, before_{path_ + ".before", own_}, header_(header) {
+    : path_(place_of(path)), next_{path_ + ".next", own_}, before_{path_ + ".before", own_}, header_(header) {
   {
     const RecordingReader before(from);
     if (before.input_columns() != header.input_columns || before.signal_columns() != header.signal_columns ||

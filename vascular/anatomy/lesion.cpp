@@ -81,7 +81,7 @@ void place(const Anatomy& anatomy, Lesion& lesion) {
   const double leaves_m =
       nearest_s(anatomy.tubes[static_cast<std::size_t>(branch->tube)], anatomy.tubes[tube].nodes.front().p) -
       branch->from_m;
-  lesion.from_m = std::max(0.0, leaves_m + lesion.from_at_m);
+  lesion.from_m = leaves_m + lesion.from_at_m;
 }
 
 void check(const Anatomy& anatomy, const Lesion& lesion) {

@@ -94,8 +94,13 @@ int require_sphere(const VesselHandle& self, int sphere) {
   return sphere;
 }
 
-std::pair<Points, Triangles> mesh(const VesselHandle& self, double phase) {
+double require_phase(double phase) {
   if (!(phase >= 0 && phase <= 1)) throw py::value_error("phase is outside [0, 1]");
+  return phase;
+}
+
+std::pair<Points, Triangles> mesh(const VesselHandle& self, double phase) {
+  require_phase(phase);
   const core::SurfaceDescription& wall = self.vessel->wall;
   Points points(wall.frames.front().size(), 3);
   for (Eigen::Index v = 0; v < points.rows(); ++v)
@@ -217,18 +222,17 @@ left, y to the head, z to the front. Raises OstiumError for a case that is not t
           .def(
               "locate",
               [](const VesselHandle& self, const Eigen::Vector3d& point, double phase) {
-                if (!point.allFinite() || !(phase >= 0 && phase <= 1))
-                  throw py::value_error("point has to be finite, and phase in [0, 1]");
-                return self.vessel->way->locate(point, phase);
+                if (!point.allFinite()) throw py::value_error("point has to be finite");
+                return self.vessel->way->locate(point, require_phase(phase));
               },
               py::arg("point"), py::arg("phase") = 0.0,
               "Number of the sphere that holds a point (3), or is nearest to it.")
           .def(
               "point",
               [](const VesselHandle& self, int sphere, double phase) {
-                return self.vessel->way->p(require_sphere(self, sphere), phase);
+                return self.vessel->way->p(require_sphere(self, sphere), require_phase(phase));
               },
-              py::arg("sphere"), py::arg("phase") = 0.0, "(3) the sphere's middle at a phase of the beat, m.")
+              py::arg("sphere"), py::arg("phase") = 0.0, "(3) the sphere's middle at a phase of the beat, [0, 1], m.")
           .def(
               "between",
               [](const VesselHandle& self, int a, int b) {

@@ -228,8 +228,9 @@ void move_hands(const SessionModel& model, const SessionInputs& inputs, SessionS
     core.rods[t].feed_m_s = hand.feed_m_s;
     core.rods[t].base.turn_rate_W_rad_s = hand.turn_rad_s * axis(state.rods.rods[t].base);
     HandState& sum = state.hands[t];
-    const double dt = model.step_s();
-    sum.fed_m += dt * hand.feed_m_s, sum.path_m += dt * std::fabs(hand.feed_m_s);
+    const double dt = model.step_s(), in_m = state.rods.rods[t].inserted_m;
+    const double fed_m = std::clamp(in_m + dt * hand.feed_m_s, 0.0, model.rods.rods[t].total_length_m) - in_m;
+    sum.fed_m += fed_m, sum.path_m += std::fabs(fed_m);
     sum.turned_rad += dt * hand.turn_rad_s, sum.turn_path_rad += dt * std::fabs(hand.turn_rad_s);
   }
 }

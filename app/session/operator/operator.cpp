@@ -103,6 +103,10 @@ void require_tool(const data::Script& script, const data::ScriptStep& step, cons
   if ((step.action == Action::inflate || step.action == Action::deflate) &&
       none([](const SessionTool& tool) { return tool.instrument.balloon.has_value(); }))
     refuse_step(script, step, step.words() + ": no tool has a balloon; expected a balloon or a stent among the tools");
+  if (step.action == Action::inflate || step.action == Action::deflate)
+    for (const int t : step.tools)
+      if (const SessionTool& tool = model.tools[static_cast<std::size_t>(t)]; !tool.instrument.balloon)
+        refuse_step(script, step, step.words() + ": " + tool.name + " has no balloon; expected a tool that has one");
   if (step.action == Action::breathe && !(model.breaths_1_min > 0))
     refuse_step(script, step, step.words() + ": this patient does not breathe; expected --set breathing=12 or so");
   const bool air = step.action == Action::provoke && step.complication == static_cast<int>(vascular::Provoked::air);

@@ -12,7 +12,9 @@ namespace {
 
 using units::atm;
 
-data::EventCode code_of(OperatorEvent::Kind kind) {
+}  // namespace
+
+data::EventCode event_code(OperatorEvent::Kind kind) {
   using Kind = OperatorEvent::Kind;
   return kind == Kind::begins       ? data::EventCode::script_step_begins
          : kind == Kind::done       ? data::EventCode::script_step_done
@@ -22,8 +24,6 @@ data::EventCode code_of(OperatorEvent::Kind kind) {
          : kind == Kind::hinted     ? data::EventCode::hint_asked
                                     : data::EventCode::script_step_timed_out;
 }
-
-}  // namespace
 
 EventWatch::EventWatch(const SessionModel& model)
     : tools_(model.tools.size()),
@@ -165,7 +165,7 @@ void EventWatch::look(const SessionModel& model, const SessionInputs& inputs, co
                       std::vector<SessionEvent>& events) {
   const std::uint64_t now = state.rods.step;
   const EventSink say{now, events};
-  for (const OperatorEvent& e : script) say(code_of(e.kind), -1, e.step);
+  for (const OperatorEvent& e : script) say(event_code(e.kind), -1, e.step);
   const bool looks = now % HandlingWatch::every == 0;
   if (looks) handling_.look(model, inputs, state, report, say);
   look_at_tools(model, report, now, looks, say);

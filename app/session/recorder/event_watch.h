@@ -10,6 +10,8 @@
 
 namespace ostium::app {
 
+data::EventCode event_code(OperatorEvent::Kind kind);
+
 class EventWatch {
  public:
   explicit EventWatch(const SessionModel& model);

@@ -139,6 +139,14 @@ void Recorder::add(const SessionInputs& inputs, const SessionState& state, const
   if (state.rods.step % data::steps_per_state == 0) put_state(state, hands);
 }
 
+void Recorder::end(const SessionState& state, const std::vector<OperatorEvent>& script) {
+  const std::size_t before = current().events.size();
+  for (const OperatorEvent& e : script)
+    current().events.push_back({state.rods.step, static_cast<int>(event_code(e.kind)), -1, 1.0 * e.step});
+  if (options_.heard)
+    for (std::size_t at = before; at < current().events.size(); ++at) options_.heard(current().events[at]);
+}
+
 void Recorder::hand_over() {
   const std::size_t next = filled_.load(std::memory_order_relaxed) + 1;
   filled_.store(next, std::memory_order_release);
@@ -153,7 +161,7 @@ void Recorder::hand_over() {
 
 void Recorder::stop() {
   if (!thread_.joinable()) return;
-  if (current().steps > 0 || current().state_rows > 0) hand_over();
+  if (current().steps > 0 || current().state_rows > 0 || !current().events.empty()) hand_over();
   over_.store(true, std::memory_order_release);
   thread_.join();
 }

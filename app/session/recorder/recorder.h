@@ -52,6 +52,8 @@ class Recorder {
   /// Call after each step.
   void add(const SessionInputs& inputs, const SessionState& state, const SessionReport& report,
            const OperatorState& hands, const std::vector<OperatorEvent>& script);
+  /// Call when no step follows, with what the operator did then: it is of the last step.
+  void end(const SessionState& state, const std::vector<OperatorEvent>& script);
   /// Hands over the last block and waits for the thread.
   void stop();
   /// After `stop`: writes the end of the run. Throws LoadError if it cannot be written.

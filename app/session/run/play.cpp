@@ -113,6 +113,7 @@ PlayReport play(ScriptedRun& run, const RunSetup& setup, const PlayOptions& opti
     }
   }
   out.clock_s = seconds_between(begin, Clock::now());
+  if (aborted.empty()) recorder.end(run.state, run.events);
   recorder.stop();
   out.simulated_s = seconds(run.model, run.state);
   out.outcome = words_for(aborted.empty() ? run.outcome : by_hand ? Outcome::ended : Outcome::aborted);

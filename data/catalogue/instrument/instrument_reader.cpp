@@ -78,7 +78,8 @@ core::BendingCurve read_curve(const JsonObject& entry) {
   return out;
 }
 
-constexpr double densest_kg_m3 = 22'590;  ///< osmium: Arblaster 2014, Platinum Metals Rev 58:137
+constexpr double densest_kg_m3 = 22'590;                      ///< osmium: Arblaster 2014, Platinum Metals Rev 58:137
+constexpr double stiffest_Pa = 1.2e12, stiffest_G_Pa = 6e11;  ///< diamond [rounded up, from memory]
 
 core::Section read_section(const JsonObject& entry, const Instrument& instrument, double& reached_mm) {
   core::Section s;
@@ -99,6 +100,11 @@ core::Section read_section(const JsonObject& entry, const Instrument& instrument
   if (inner >= outer) entry.refuse(entry.has("inner_diameter_mm") ? "inner_diameter_mm" : "outer_diameter_mm");
   s.radius_m = outer / 2, s.inner_radius_m = inner / 2;
   if (s.kg_per_m > densest_kg_m3 * std::numbers::pi / 4 * (outer * outer - inner * inner)) entry.refuse("kg_per_m");
+  const double second_moment_m4 = std::numbers::pi / 64 * (std::pow(outer, 4) - std::pow(inner, 4));
+  const auto too_stiff = [&](double EI_N_m2) { return EI_N_m2 > stiffest_Pa * second_moment_m4; };
+  if (too_stiff(s.EI1_N_m2)) entry.refuse(one ? "EI_Nmm2" : "EI1_Nmm2");
+  if (too_stiff(s.EI2_N_m2)) entry.refuse(one ? "EI_Nmm2" : "EI2_Nmm2");
+  if (s.GJ_N_m2 > stiffest_G_Pa * 2 * second_moment_m4) entry.refuse("GJ_Nmm2");
   if (entry.has("rest_curvature_per_mm")) {
     const std::vector<double> u = entry.numbers("rest_curvature_per_mm", 3);
     s.rest_curvature_per_m = Eigen::Vector3d(u[0], u[1], u[2]) * per_mm;

@@ -29,6 +29,18 @@ TEST(Operator, SaysWhyItFailed) {
   EXPECT_EQ(anyhow.outcome, "success");
 }
 
+TEST(Operator, WhatDidNotGoInWasNotFed) {
+  const std::string script = R"({ "schema": "ostium-script/1", "name": "far", "title": "A test",
+    "tools": [ { "name": "wire", "instrument": "cook-j" } ],
+    "steps": [ { "do": "withdraw", "tool": "wire", "speed_mm_s": 100, "until": [{ "fed_mm": 50 }], "timeout_s": 1 } ] })";
+  ScriptedRun run(tube_setup(script), tube_vessel());
+  while (run.tick()) {
+  }
+  EXPECT_EQ(run.outcome, Outcome::timed_out) << "it was out already";
+  EXPECT_EQ(run.state.hands[0].fed_m, 0);
+  EXPECT_EQ(run.state.hands[0].path_m, 0);
+}
+
 TEST(Operator, TriesAgainAsOftenAsItSays) {
   const std::string script = R"({ "schema": "ostium-script/1", "name": "tries", "title": "A test",
     "tools": [ { "name": "wire", "instrument": "cook-j" } ],

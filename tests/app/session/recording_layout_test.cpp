@@ -1,6 +1,7 @@
 /// What a recording says of itself, and that what it holds is what happened.
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <cmath>
@@ -210,6 +211,22 @@ TEST(Recording, WithFewerSignalsThanItsStepsHaveIsCutShort) {
   }
   const std::string said = data::refusal_of([&] { data::RecordingReader reader(folder("run.h5")); });
   data::expect_words(said, {"run.h5: has signals of 30 of its 40 steps", "cut short"});
+}
+
+TEST(Recording, TakesNoPlaceOfALinkOrOfWhatIsNoFile) {
+  const Folder folder;
+  fs::create_directories(folder("far"));
+  fs::create_symlink("far/run.h5", folder("run.h5"));
+  {
+    data::RecordingWriter writer(folder("run.h5"), small_header());
+    writer.commit(forty_steps());
+    writer.finish("{}");
+  }
+  EXPECT_TRUE(fs::is_symlink(folder("run.h5")));
+  EXPECT_EQ(data::RecordingReader(folder("far/run.h5")).steps(), 40u);
+  ASSERT_EQ(mkfifo(folder("pipe").c_str(), 0600), 0);
+  EXPECT_THROW(data::RecordingWriter(folder("pipe"), small_header()), data::WriteError);
+  EXPECT_TRUE(fs::is_fifo(folder("pipe")));
 }
 
 TEST(Recording, WhoseFolderVanishesSaysSo) {

@@ -59,6 +59,16 @@ TEST(Recording, ReplaysToTheBitFromAnySecond) {
   EXPECT_EQ(nlohmann::json::parse(metrics_json("tube", 0, "success", "", again)), nlohmann::json::parse(end));
 }
 
+TEST(Recording, HoldsWhatWasDoneInTheEnd) {
+  const Folder folder;
+  recorded(folder("run.h5"), RecordMode::full);
+  const data::RecordingReader reader(folder("run.h5"));
+  const std::vector<double> events = reader.events();
+  ASSERT_GE(events.size(), 4u);
+  EXPECT_EQ(events[events.size() - 3], static_cast<int>(data::EventCode::script_step_done));
+  EXPECT_EQ(events[events.size() - 4], static_cast<double>(reader.steps()));
+}
+
 /// Whoever looks at a moment of a recording sees the state that was hashed then, or is told.
 TEST(Recording, AStateThatWasChangedIsRefused) {
   const Folder folder;

@@ -170,6 +170,17 @@ TEST(Metrics, OfATreatmentMadeByHand) {
     EXPECT_TRUE(std::isnan(value(record(), name))) << name;
 }
 
+TEST(Metrics, WhileBothPedalsAreDownTheBeamIsCine) {
+  RunRecord r = record();
+  r.events = {1000, double(code(EventCode::fluoroscopy_on)),  -1, 0,  //
+              3000, double(code(EventCode::cine_on)),         -1, 0,  //
+              4000, double(code(EventCode::fluoroscopy_off)), -1, 0,  //
+              4500, double(code(EventCode::fluoroscopy_on)),  -1, 0,  //
+              5000, double(code(EventCode::cine_off)),        -1, 0};
+  EXPECT_NEAR(value(r, "fluoroscopy_time_s"), 2 + 5, 1e-12) << "to the end, at 10 s";
+  EXPECT_NEAR(value(r, "cine_time_s"), 2, 1e-12);
+}
+
 TEST(Metrics, OfARecordMadeByHand) {
   const RunRecord r = record();
   EXPECT_DOUBLE_EQ(value(r, "procedure_time_s"), 10);

@@ -155,7 +155,11 @@ TEST(Report, TablesHaveARowEach) {
   EXPECT_EQ(columns, 6 + metric_definitions().size() + 4);
   ReportRun run = run_with("");
   run.tools = {"wire"};
-  EXPECT_EQ(events_csv(run).find("time_s,event,tool,value,meaning,handling\n1.000,mark,"), 0u);
+  run.marks = {"a mark, and what it says"};
+  const std::string events = events_csv(run);
+  EXPECT_EQ(events.find("time_s,event,tool,value,meaning,handling,text\n1.000,mark,"), 0u);
+  EXPECT_NE(events.find(",\"a mark, and what it says\"\n"), std::string::npos);
+  EXPECT_NE(report_page({run}, list).find("mark: a mark, and what it says"), std::string::npos);
 }
 
 TEST(Report, ErrorsOfHandlingAreListedWithTheirMeaning) {
@@ -169,13 +173,13 @@ TEST(Report, ErrorsOfHandlingAreListedWithTheirMeaning) {
   EXPECT_EQ(page.find("No error of handling"), std::string::npos);
   EXPECT_NE(page.find("<td>error</td><td>side_branch_pushed</td><td>wire</td><td>12.5"), std::string::npos);
   EXPECT_NE(page.find("<td>critical</td><td>stent_lost</td>"), std::string::npos);
-  EXPECT_NE(csv.find("2.000,side_branch_pushed,wire,12.5,mm inside,error\n"), std::string::npos) << csv;
+  EXPECT_NE(csv.find("2.000,side_branch_pushed,wire,12.5,mm inside,error,\n"), std::string::npos) << csv;
   const auto metric = [&](const std::string& name) {
     for (const Metric& m : metrics_of(run.record))
       if (m.name == name) return m.value;
     return -1.0;
   };
-  EXPECT_NE(csv.find("3.000,stent_lost,,,,critical\n"), std::string::npos) << csv;
+  EXPECT_NE(csv.find("3.000,stent_lost,,,,critical,\n"), std::string::npos) << csv;
   EXPECT_EQ(metric("handling_errors"), 2);
   EXPECT_EQ(metric("handling_errors_critical"), 1);
 }

@@ -165,6 +165,8 @@ TEST(Case, ALesionFollowsTheBranchThatItIsAt) {
   expect_words(case_refusal("\"calcified\": false", "\"calcified\": false, \"at_branch\": \"OM1\""),
                {"at_branch is \"OM1\"", "a branch that leaves RCA"});
   expect_words(case_refusal("\"from_mm\": 40", "\"from_mm\": -4"), {"from_mm is -4"});
+  expect_words(case_refusal("\"from_mm\": 40", "\"from_mm\": -500, \"at_branch\": \"RV\""),
+               {"a lesion from -4", "expected it within the branch's"});
 }
 
 TEST(Case, AnotherPersonHasPlaqueOfTheirOwn) {

@@ -70,6 +70,9 @@ TEST(InstrumentErrors, WrongTypes) {
 }
 
 TEST(InstrumentErrors, WhatNoMatterIsMadeOf) {
+  // A tube of 2 and 1.8 mm has a second moment of 0.270 mm4: of diamond, 325,000 N mm2.
+  EXPECT_EQ(refusal("\"EI_Nmm2\": 30,", "\"EI_Nmm2\": 3e5,"), "accepted");
+  expect_words(refusal("\"EI_Nmm2\": 30,", "\"EI_Nmm2\": 4e5,"), {"EI_Nmm2 is", "at most diamond's"});
   // A tube of 2 and 1.8 mm has 0.597 mm2: of osmium 0.0135 kg/m.
   EXPECT_EQ(refusal(R"("kg_per_m": 0.001)", R"("kg_per_m": 0.0134)"), "accepted");
   expect_words(refusal(R"("kg_per_m": 0.001)", R"("kg_per_m": 0.0136)"), {"sections.list[0].kg_per_m is 0.0136"});
@@ -127,7 +130,7 @@ TEST(InstrumentErrors, NumbersThatCannotBe) {
 }
 
 TEST(InstrumentErrors, WhatCoreDoesNotTakeIsRefusedHereToo) {
-  expect_words(refusal(R"("EI_Nmm2": 30,)", R"("EI_Nmm2": 1e11,)"),
+  expect_words(refusal(R"("EI_Nmm2": 30,)", R"("EI_Nmm2": 1e-7,)"),
                {"folder/hook.json:10: sections make no rod", "EI1"});
 }
 
