@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "vascular/treatment/plaque_shift.h"
 #include "vascular/treatment/side_by_side.h"
 
 namespace ostium::vascular {
@@ -165,14 +166,16 @@ void step_stents(const TreatmentModel& model, const TreatmentInputs& in, const T
   }
 }
 
-void move_carinas(const TreatmentModel& model, const TreatmentInputs& in, const TreatmentReport& report,
-                  const FlowTree& tree, TreatmentState& s) {
+void move_forks(const TreatmentModel& model, const TreatmentInputs& in, const TreatmentReport& report,
+                const FlowTree& tree, TreatmentState& s) {
   for (std::size_t f = 0; f < model.forks.size(); ++f) {
     AtFork there;
+    bool filled = false;
     for (int k = 0; k < most_balloons; ++k) {
       const BalloonModel* balloon = balloon_of(model, in.balloons[k]);
       const VesselPath* path = path_of(model, in.balloons[k]);
       if (!balloon || !path || report.blocked[k] || s.balloons[k].pressure_Pa < pushes_from_Pa) continue;
+      filled = true;
       const auto radius_in = [&](int cell) {
         const auto at = std::find(path->cells.begin(), path->cells.end(), cell) - path->cells.begin();
         return at == std::ssize(path->cells)
@@ -184,6 +187,10 @@ void move_carinas(const TreatmentModel& model, const TreatmentInputs& in, const 
     }
     if (there.main_m > 0 || there.side_m > 0)
       s.carina_m[f] = shifted_carina_m(tree, model.forks[f], there, s.carina_m[f]);
+    if (!filled) continue;
+    const double pushed_m3 = pushed_plaque_m3(tree, model.plaque, s.wall, model.forks[f]);
+    s.in_mouth_m3[f] += pushed_m3 - s.pushed_m3[f], s.pushed_m3[f] = pushed_m3;
+    s.in_mouth_m3[f] = plaque_left_m3(tree, model.forks[f], s.in_mouth_m3[f], there.side_m);
   }
 }
 

@@ -16,9 +16,9 @@ BalloonReport inflate(const TreatmentModel& model, const TreatmentInputs& inputs
 /// Stents in the wall and those on a balloon.
 void step_stents(const TreatmentModel& model, const TreatmentInputs& inputs, const TreatmentReport& report, double dt_s,
                  TreatmentState& state);
-/// Balloons push the carinas that they lie at.
-void move_carinas(const TreatmentModel& model, const TreatmentInputs& inputs, const TreatmentReport& report,
-                  const FlowTree& tree, TreatmentState& state);
+/// Balloons push the carinas that they lie at, and plaque into mouths.
+void move_forks(const TreatmentModel& model, const TreatmentInputs& inputs, const TreatmentReport& report,
+                const FlowTree& tree, TreatmentState& state);
 /// Sets what occupies the lumen besides blood: shafts and balloons.
 void fill_lumen(const TreatmentModel& model, const TreatmentInputs& inputs, const TreatmentReport& report,
                 const TreatmentState& state, const TreatedVessels& vessels);

@@ -6,6 +6,7 @@
 #include "core/base/random.h"
 #include "core/base/units.h"
 #include "vascular/treatment/devices.h"
+#include "vascular/treatment/plaque_shift.h"
 
 namespace ostium::vascular {
 
@@ -158,20 +159,34 @@ void close_branches(const TreatmentModel& model, const FlowTree& tree, const Tre
       physiology.radius_m[static_cast<std::size_t>(branch.first)] = closed_m;
 }
 
-/// A carina in a branch's mouth narrows it, less and less along it, where no stent holds it.
+/// Calls `narrow` with each cell of a mouth of that length, and the share of the way along it, where no stent holds it.
+template <class Narrow>
+void along_mouth(const TreatmentModel& model, const FlowTree& tree, const TreatmentState& s, int first, double length_m,
+                 const Narrow& narrow) {
+  if (is_stented(model, s, first)) return;
+  const int last = tree.branches[static_cast<std::size_t>(tree.cells[static_cast<std::size_t>(first)].branch)].last;
+  for (int c = first; c < last; ++c) {
+    const double way = (tree.s_of(c) - tree.s_of(first)) / length_m;
+    if (way >= 1) return;
+    narrow(static_cast<std::size_t>(c), way);
+  }
+}
+
+/// A carina in a branch's mouth narrows it, less and less along it; so does plaque that was pushed there.
 void narrow_mouths(const TreatmentModel& model, const FlowTree& tree, const TreatmentState& s,
                    PhysiologyState& physiology) {
   for (std::size_t f = 0; f < model.forks.size(); ++f) {
-    if (std::fabs(s.carina_m[f]) < least_shift_m) continue;
-    const int first = s.carina_m[f] > 0 ? model.forks[f].side_cell : model.forks[f].main_cell;
-    if (is_stented(model, s, first)) continue;
-    const int last = tree.branches[static_cast<std::size_t>(tree.cells[static_cast<std::size_t>(first)].branch)].last;
-    for (int c = first; c < last; ++c) {
-      const double way = (tree.s_of(c) - tree.s_of(first)) / mouth_m;
-      if (way >= 1) break;
-      double& radius_m = physiology.radius_m[static_cast<std::size_t>(c)];
-      radius_m *= mouth_left(radius_m, (1 - way) * std::fabs(s.carina_m[f]));
-    }
+    const Fork& fork = model.forks[f];
+    const double shift_m = std::fabs(s.carina_m[f]);
+    if (shift_m >= least_shift_m)
+      along_mouth(model, tree, s, s.carina_m[f] > 0 ? fork.side_cell : fork.main_cell, mouth_m,
+                  [&](std::size_t c, double way) {
+                    physiology.radius_m[c] *= mouth_left(physiology.radius_m[c], (1 - way) * shift_m);
+                  });
+    if (s.in_mouth_m3[f] > 0)
+      along_mouth(model, tree, s, fork.side_cell, plaque_reach_m, [&](std::size_t c, double way) {
+        physiology.radius_m[c] *= mouth_beside_plaque(physiology.radius_m[c], s.in_mouth_m3[f], way);
+      });
   }
 }
 
@@ -242,7 +257,7 @@ TreatmentState make_state(const TreatmentModel& model, const FlowTree& tree) {
     balloon.aside_m.assign(balloon_spheres, Eigen::Vector2d::Zero());
   }
   for (const StentModel& stent : model.stents) s.stents.push_back(make_stent_state(stent));
-  s.carina_m.assign(model.forks.size(), 0);
+  s.carina_m.assign(model.forks.size(), 0), s.pushed_m3 = s.in_mouth_m3 = s.carina_m;
   s.spasm.assign(tree.branches.size(), 0);
   s.drugs = make_state(model.drugs);
   return s;
@@ -269,7 +284,7 @@ TreatmentReport step(const TreatmentModel& model, const TreatmentInputs& in, dou
     if (in.balloons[k].balloon >= 0 && !report.blocked[k])
       report.balloons[k] = inflate(model, in, report, k, dt, s, vessels, x);
   step_stents(model, in, report, dt, s);
-  move_carinas(model, in, report, vessels.flow.tree, s);
+  move_forks(model, in, report, vessels.flow.tree, s);
   if (in.wire_tip_cell >= 0)
     judge_wire(model.injury, in.wire_tip_cell, s.wall.radius_m[in.wire_tip_cell], in.wire_tip_N, dt,
                vessels.physiology.heart.time_s, s.injury);

@@ -68,7 +68,9 @@ struct TreatmentState {
   std::array<int, most_balloons> balloon_in{-1, -1};  ///< index in the model; -1: none yet
   std::vector<StentState> stents;                     ///< (#stents), including crimped ones
   std::vector<double> carina_m;  ///< (#forks) how far it lies in the side branch's mouth (carina.h)
-  std::vector<double> spasm;     ///< (#branches) [0, 1): of the diameter; may be set from outside
+  /// (#forks) Plaque pushed so far, and what of it lies in the side branch's mouth (plaque_shift.h).
+  std::vector<double> pushed_m3, in_mouth_m3;
+  std::vector<double> spasm;  ///< (#branches) [0, 1): of the diameter; may be set from outside
   InjuryState injury;
   ThrombusState thrombus;
   DrugState drugs;
@@ -81,6 +83,8 @@ constexpr auto fields(const TreatmentState*) {
                     core::field("balloon_in", &S::balloon_in),
                     core::field("stents", &S::stents),
                     core::field("carina_m", &S::carina_m),
+                    core::field("pushed_m3", &S::pushed_m3),
+                    core::field("in_mouth_m3", &S::in_mouth_m3),
                     core::field("spasm", &S::spasm),
                     core::field("injury", &S::injury),
                     core::field("drugs", &S::drugs),

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/base/units.h"
+#include "vascular/treatment/plaque_shift.h"
 #include "vascular/treatment/side_by_side.h"
 #include "vascular/treatment/stent_shape.h"
 #include "vascular/treatment/treatment.h"
@@ -84,6 +85,11 @@ TEST(SideBySide, TheirPressureDoesTheWorkOfTheWallsTension) {
   EXPECT_EQ(flattened_rad(1, 1, 1, {}), 0);
 }
 
+/// Radii; of the parent's last 6 mm a share may be narrowed away.
+struct Fork3 {
+  double parent_m = 2.0 * mm, main_m = 1.6 * mm, side_m = 1.4 * mm, stenosis = 0, stent_m = 3.25 * mm;
+};
+
 /// A left main of 4.0 mm that forks into 3.2 and 2.8 mm, without plaque, in a phantom.
 struct ForkedBench {
   FlowTree tree;
@@ -98,21 +104,22 @@ struct ForkedBench {
   double carina_m = 0;
   enum Device { own, main_kiss, side_kiss, large, first_of_many };
 
-  /// `proximal_m`: radius of the left main.
-  explicit ForkedBench(double proximal_m = 2.0 * mm, double stent_m = 3.25 * mm)
-      : tree(plain_tree({{-1, 40, 0.3 * mm, proximal_m, Territory::lad},
-                         {0, 100, 0.3 * mm, 1.6 * mm, Territory::lad},
-                         {0, 100, 0.3 * mm, 1.4 * mm, Territory::lcx}})) {
+  explicit ForkedBench(const Fork3& sizes = {})
+      : tree(plain_tree({{-1, 40, 0.3 * mm, sizes.parent_m, Territory::lad},
+                         {0, 100, 0.3 * mm, sizes.main_m, Territory::lad},
+                         {0, 100, 0.3 * mm, sizes.side_m, Territory::lcx}})) {
+    for (int c = 20; c < 40; ++c) tree.cells[static_cast<std::size_t>(c)].diseased_m *= 1 - sizes.stenosis;
     physiology.flow = make_flow_model(tree, 100 * mL_min);
     physiology.contrast = make_contrast_model(physiology.flow);
     PlaqueLaw phantom;
     phantom.healthy_Pa = 12 * atm;  // a silicone tube [estimate: 1 MPa, a wall of a tenth of its radius]
     model.plaque = make_plaque_model(tree, {}, phantom);
-    model.balloons = {make_balloon(Compliance::semi, stent_m, 18e-3), make_balloon(Compliance::non, 3.0e-3, 15e-3),
-                      make_balloon(Compliance::non, 3.0e-3, 15e-3), make_balloon(Compliance::non, 4.0e-3, 8e-3)};
+    model.balloons = {make_balloon(Compliance::semi, sizes.stent_m, 18e-3),
+                      make_balloon(Compliance::non, 3.0e-3, 15e-3), make_balloon(Compliance::non, 3.0e-3, 15e-3),
+                      make_balloon(Compliance::non, 4.0e-3, 8e-3)};
     for (const double wide_mm : {4.0, 4.5, 5.0, 5.5})
       model.balloons.push_back(make_balloon(Compliance::non, wide_mm * mm, 8e-3));
-    model.stents = {make_stent(stent_m, 18e-3)}, model.stent_on.assign(model.balloons.size(), -1);
+    model.stents = {make_stent(sizes.stent_m, 18e-3)}, model.stent_on.assign(model.balloons.size(), -1);
     model.stent_on[own] = 0;
     model.paths = all_paths(tree), model.forks = make_forks(tree);
     carina_m = model.paths[1].s_m[39] + 0.15 * mm;
@@ -203,7 +210,7 @@ TEST(Kissing, LeavesAnOvalStentThatOneLargeBalloonRounds) {
 
 /// A balloon that tapers towards the daughter is squeezed out, with the rings round it: bench 0.86 +- 0.74 mm.
 TEST(Kissing, EveryProximalOverexpansionLengthensTheStent) {
-  ForkedBench f(2.75 * mm, 3.5 * mm);
+  ForkedBench f({.parent_m = 2.75 * mm, .stent_m = 3.5 * mm});
   f.stent(8);
   const auto length_m = [&] {
     const auto [from_m, to_m] = span_of(f.state.stents[0]);
@@ -257,6 +264,41 @@ TEST(Kissing, OpensTheCellAndPushesTheCarinaBack) {
   EXPECT_LT(cell_m, 0.6 * mm);
   EXPECT_GT(f.cell_m(), 0.85 * 1.4 * mm) << "less than the balloon's radius";
   EXPECT_LT(f.cell_m(), 1.5 * mm);
+}
+
+/// Sizes of bifurcations (Finet: 3.33, 2.70, 2.23 mm), narrowed by 60 %.
+TEST(Kissing, AStentPushesPlaqueIntoTheSideBranchAndABalloonThereTakesItAway) {
+  const Fork3 sizes{1.665 * mm, 1.35 * mm, 1.115 * mm, 0.6, 2.75 * mm};
+  ForkedBench f(sizes);
+  f.stent();
+  const double in_mouth_m3 = f.state.in_mouth_m3[0], mm3 = 1e-9;
+  EXPECT_GT(in_mouth_m3, 0.6 * mm3) << "finite elements: 0.89 +- 0.15 mm3";
+  EXPECT_LT(in_mouth_m3, 1.2 * mm3);
+  double lost_m3 = 0;
+  for (std::size_t c = 140; c < 160; ++c) {
+    const double r = f.blood.radius_m[c],
+                 shifted = mouth_left(sizes.side_m, (1 - f.tree.s_of(static_cast<int>(c)) / mouth_m) *
+                                                        std::max(0.0, f.state.carina_m[0]));
+    lost_m3 += pi * (std::pow(sizes.side_m * (f.tree.s_of(static_cast<int>(c)) < mouth_m ? shifted : 1), 2) - r * r) *
+               f.tree.cells[c].length_m;
+  }
+  EXPECT_NEAR(lost_m3, in_mouth_m3, 0.15 * in_mouth_m3);
+  f.place(0, ForkedBench::side_kiss, 2, f.carina_m + 3.5 * mm);
+  f.inflate(10);
+  EXPECT_EQ(f.state.in_mouth_m3[0], 0) << "3.0 mm fill a branch of 2.23 mm";
+}
+
+TEST(Kissing, PushedPlaqueIsAShareOfWhatTheLumenTook) {
+  ForkedBench f({.stenosis = 0.5});
+  const Fork& fork = f.model.forks[0];
+  const auto pushed_mm3 = [&] { return 1e9 * pushed_plaque_m3(f.tree, f.model.plaque, f.state.wall, fork); };
+  EXPECT_EQ(pushed_mm3(), 0);
+  for (double& peak_m : f.state.wall.peak_m) peak_m = 3.0 * mm;
+  EXPECT_NEAR(pushed_mm3(), 0.08 * pi * (2.0 * 2.0 - 1.0 * 1.0) * 3, 1e-9) << "all of it, along 3 mm";
+  for (double& peak_m : f.state.wall.peak_m) peak_m = std::sqrt(2.5) * mm;
+  EXPECT_NEAR(pushed_mm3(), 0.08 * pi * (2.5 - 1.0) * 3, 1e-9);
+  EXPECT_EQ(plaque_left_m3(f.tree, fork, 1e-9, 0), 1e-9);
+  EXPECT_NEAR(plaque_left_m3(f.tree, fork, 1e-7, 1.0 * mm), pi * (1.4 * 1.4 - 1.0) * 1.5e-9, 1e-15);
 }
 
 }  // namespace
