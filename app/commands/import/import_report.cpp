@@ -85,7 +85,7 @@ void tell(const Imported& x, const std::string& called) {
              : x.found.heart              ? "beating"
              : x.patient.lumen.moving > 0 ? "beating at the root of the aorta"
                                           : "still");
-  fmt::print("units: {}: {:.0f} mm long, {:.1f} mm wide\n", describe(x.unit), x.unit.extent_m / mm,
+  fmt::print("units: {}; spans {:.0f} mm, {:.1f} mm wide\n", describe(x.unit), x.unit.extent_m / mm,
              x.unit.calibre_m / mm);
   if (x.axes.said_by_file) fmt::print("axes: {}, as the file says\n", x.axes.letters);
   if (x.skipped) fmt::print("{} points or lines in the files were left out\n", x.skipped);
