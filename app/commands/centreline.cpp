@@ -114,6 +114,10 @@ int run(const Arguments& a) {
     const Eigen::Vector3d p = opening.middle / metres(unit);
     fmt::print("open, so it got a lid: at {:.2f} {:.2f} {:.2f} {}\n", p.x(), p.y(), p.z(), name_of(unit));
   }
+  for (const Eigen::Vector3d& cut : found.cuts) {
+    const Eigen::Vector3d p = cut / metres(unit);
+    fmt::print("a loop was cut open: at {:.2f} {:.2f} {:.2f} {}\n", p.x(), p.y(), p.z(), name_of(unit));
+  }
   const std::string axes = axes_said_by(a.mesh);
   fmt::print("{}: {} branches, {} spheres, in the mesh's axes{} and in {}; looked at {:.2f} mm\n", a.output,
              found.tree.branches.size(), found.tree.spheres(), axes.empty() ? "" : ", " + axes + ",",

@@ -1,4 +1,4 @@
-/// What is the outer shell of a wall goes, and what only looks like one stays.
+/// What is the outer shell of a wall goes, and what only looks like one stays; limbs that nearly touch stay apart.
 #include "vascular/geometry/repair/double_wall.h"
 
 #include <gtest/gtest.h>
@@ -10,7 +10,9 @@
 #include "core/base/units.h"
 #include "tests/vascular/geometry/damage.h"
 #include "tests/vascular/geometry/shapes.h"
+#include "vascular/geometry/implicit/contour.h"
 #include "vascular/geometry/mesh/surface_check.h"
+#include "vascular/geometry/repair/limbs.h"
 #include "vascular/geometry/repair/repair.h"
 #include "vascular/geometry/repair/units.h"
 
@@ -76,6 +78,53 @@ TEST(DoubleWalls, AWallsUnitIsThatOfItsLumen) {
   const std::vector<UnitReading> readings = unit_readings(size);
   EXPECT_TRUE(std::any_of(readings.begin(), readings.end(),
                           [](const UnitReading& r) { return r.unit == LengthUnit::millimetre; }));
+}
+
+/// A coil of two turns, 3 mm wide.
+Mesh coil(double apart_m) {
+  constexpr int rows = 160, columns = 24;
+  constexpr double radius = 1.5 * mm, bend = 8 * mm;
+  const double rise = (2 * radius + apart_m) / (2 * units::pi);
+  Mesh mesh = test::tube(radius, 1, columns, rows);
+  for (Eigen::Vector3d& p : mesh.vertices) {
+    const double angle = 4 * units::pi * p.z();
+    const Eigen::Vector3d out(std::cos(angle), std::sin(angle), 0);
+    p = (bend + p.x()) * out + Eigen::Vector3d(0, 0, rise * angle + p.y());
+  }
+  for (auto& t : mesh.triangles) std::swap(t[1], t[2]);
+  return mesh;
+}
+
+TEST(Limbs, TurnsOfACoilStayApart) {
+  for (const double apart : {0.2 * mm, 0.3 * mm}) {
+    const Mesh mesh = coil(apart);
+    ASSERT_TRUE(check_surface(mesh).sound());
+    const std::optional<NearLimbs> near = nearest_limbs(mesh, 1 * mm);
+    ASSERT_TRUE(near);
+    EXPECT_NEAR(near->gap_m, apart, 0.05 * mm);
+    const Mesh lumen = repair_mesh(mesh).lumen;
+    // Corners less edges and triangles: 2 of a tube with lids, less 2 for each loop.
+    EXPECT_EQ(static_cast<long>(lumen.vertices.size()) - static_cast<long>(lumen.triangles.size()) / 2, 2) << apart;
+    EXPECT_NEAR(volume_m3(lumen), volume_m3(mesh), 0.03 * volume_m3(mesh));
+  }
+}
+
+TEST(Limbs, WhereTheyMayHaveMergedIsSaid) {
+  RepairOptions options;
+  options.voxel_m = 0.4 * mm;
+  const RepairedMesh repaired = repair_mesh(coil(0.2 * mm), options);
+  EXPECT_TRUE(std::any_of(repaired.notes.begin(), repaired.notes.end(), [](const RepairNote& n) {
+    return n.what.find("limbs of one vessel") != std::string::npos &&
+           n.what.find("keeps them apart") != std::string::npos;
+  }));
+}
+
+/// Not where its branches part.
+TEST(Limbs, AForkHasNone) {
+  const std::vector<Tube> fork = {
+      make_tube("trunk", -1, {{{0, 0, 0}, 2 * mm}, {{0, 0, 0.02}, 2 * mm}, {{0.006, 0, 0.05}, 2 * mm}}),
+      make_tube("branch", 0, {{{0, 0, 0.02}, 2 * mm}, {{-0.006, 0, 0.05}, 2 * mm}})};
+  EXPECT_FALSE(nearest_limbs(contour(TubeUnion(fork), {}).mesh, 0.8 * mm));
 }
 
 }  // namespace

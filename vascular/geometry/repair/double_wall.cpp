@@ -5,7 +5,6 @@
 #include <cmath>
 #include <optional>
 #include <queue>
-#include <unordered_map>
 
 #include "vascular/geometry/mesh/bounding_volume_hierarchy.h"
 
@@ -56,7 +55,7 @@ class ShellFinder {
       // Of the two sides of a solid, the lumen is the narrower.
       const double free = solid ? std::max(2 * wall, lumen) : 2 * wall;
       if (!tree_.hits(middles_[t] - 1e-7 * in, -in, free).empty()) continue;
-      if (reached(t, inside[0].triangle, along_surface * wall)) continue;
+      if (reached_along(sheets_, middles_, t, inside[0].triangle, along_surface * wall)) continue;
       return wall;
     }
     return 0;
@@ -118,29 +117,6 @@ class ShellFinder {
     }
     const double ratio = (inside[2].distance_m - inside[1].distance_m) / inside[0].distance_m;
     return ratio < most_uneven && ratio > 1 / most_uneven;
-  }
-
-  bool reached(int from, int to, double limit_m) const {
-    std::priority_queue<std::pair<double, int>, std::vector<std::pair<double, int>>, std::greater<>> open;
-    std::unordered_map<int, double> best;
-    open.push({0, from});
-    best[from] = 0;
-    while (!open.empty()) {
-      const auto [d, t] = open.top();
-      open.pop();
-      if (t == to) return true;
-      if (d > best[t]) continue;
-      for (int k = 0; k < 3; ++k) {
-        const int o = sheets_.opposite[3 * t + k];
-        if (o < 0) continue;
-        const double next = d + (middles_[o / 3] - middles_[t]).norm();
-        const auto [entry, fresh] = best.try_emplace(o / 3, next);
-        if (next + (middles_[o / 3] - middles_[to]).norm() > limit_m || (!fresh && entry->second <= next)) continue;
-        entry->second = next;
-        open.push({next, o / 3});
-      }
-    }
-    return false;
   }
 
   const Mesh& mesh_;

@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <set>
 
 #include "core/base/units.h"
@@ -17,6 +18,7 @@
 #include "vascular/geometry/repair/double_wall.h"
 #include "vascular/geometry/repair/facing_ends.h"
 #include "vascular/geometry/repair/finish.h"
+#include "vascular/geometry/repair/limbs.h"
 #include "vascular/geometry/repair/prolong.h"
 #include "vascular/geometry/repair/sheets.h"
 #include "vascular/geometry/repair/taper.h"
@@ -27,7 +29,9 @@ namespace {
 
 using units::mm;
 constexpr double least_voxel_m = 0.12e-3, most_voxel_m = 0.4e-3;
-constexpr double voxels_across = 3.5;       // across the narrowest vessels
+constexpr double voxels_across = 3.5;   // across the narrowest vessels
+constexpr double voxels_between = 2.2;  // of one lumen's limbs, so that they stay apart
+constexpr double least_between_m = 0.05e-3;
 constexpr double most_wall_voxels = 1.5e6;  // of the level set's surface
 constexpr double most_cells = 4e6;          // the same of a voxel that was asked for: 4 GB, and some minutes
 constexpr int smoothing_rounds = 16;
@@ -45,6 +49,7 @@ class Mender {
     drop_outer_walls();
     close_openings();
     result_.voxel_m = options_.voxel_m > 0 ? affordable_voxel() : chosen_voxel();
+    keep_limbs_apart();
     say("filling the lumen");
     Mesh lumen = outer_surface(mesh_, result_.voxel_m);
     std::vector<Mesh> lumens = whole_lumens(lumen);
@@ -257,6 +262,21 @@ class Mender {
     const double least = std::min(least_voxel_m, percentile(wide, 0.5) / voxels_across);
     const double affordable = std::sqrt(area_m2(mesh_) / most_wall_voxels);
     return std::clamp(narrow / voxels_across, std::max(least, affordable), std::max(most_voxel_m, affordable));
+  }
+
+  /// By finer voxels, if none were asked for and these fill no memory; else it is said.
+  void keep_limbs_apart() {
+    const std::optional<NearLimbs> near = nearest_limbs(mesh_, voxels_between * result_.voxel_m);
+    if (!near) return;
+    const double wanted_m = near->gap_m / voxels_between;
+    if (options_.voxel_m <= 0)
+      result_.voxel_m = std::min(result_.voxel_m,
+                                 std::max({wanted_m, least_between_m, std::sqrt(area_m2(mesh_) / most_wall_voxels)}));
+    if (result_.voxel_m <= near->gap_m) return;  // mostly, that does
+    const bool affordable = wanted_m >= std::sqrt(area_m2(mesh_) / most_cells);
+    note(fmt::format("place where limbs of one vessel, {:.2g} mm apart, may have become one{}", near->gap_m / mm,
+                     affordable ? fmt::format(" (--voxel {:.2g} keeps them apart)", 0.95 * wanted_m / mm) : ""),
+         1, {near->where});
   }
 
   std::vector<Mesh> whole_lumens(const Mesh& mesh) {
