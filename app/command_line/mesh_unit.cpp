@@ -38,7 +38,7 @@ std::optional<vascular::LengthUnit> marked_unit(const std::vector<std::string>& 
   std::string list, names;
   for (const vascular::UnitReading& reading : readings) {
     const double mm = 1e3 * metres(reading.unit);
-    list += fmt::format("\n  --units {:<2}  {:.4g} mm long and {:.3g} mm wide: {}", name_of(reading.unit),
+    list += fmt::format("\n  --units {:<2}  spans {:.4g} mm, vessels {:.3g} mm wide: {}", name_of(reading.unit),
                         mm * size.extent, mm * size.wide, reading.vessel);
     names += (names.empty() ? "" : " or ") + name_of(reading.unit);
   }

@@ -46,7 +46,7 @@ vascular::MeshFile read_vessel(const std::string& path, vascular::LengthUnit uni
     throw vascular::MeshError(path + ": its ending names nothing that is read as a vessel; expected a mesh (" +
                               vascular::listed_mesh_endings() + ") or centrelines of 3D Slicer (.mrk.json)");
   }
-  const std::vector<vascular::Tube> tubes = data::load_markups(path);
+  const std::vector<vascular::Tube> tubes = data::load_markups(path).tubes;
   vascular::ContourSettings settings;
   for (const vascular::Tube& tube : tubes)
     for (const vascular::TubeNode& node : tube.nodes)

@@ -6,7 +6,8 @@
 
 namespace ostium::app {
 
-/// As read_mesh; of NAME.mrk.json the surface of the spheres along its curves, in LPS. Throws MeshError, LoadError.
+/// As read_mesh; of NAME.mrk.json the surface of the spheres along its curves, in the axes that it says. Throws
+/// MeshError, LoadError.
 vascular::MeshFile read_vessel(const std::string& path, vascular::LengthUnit unit, double weld_m);
 
 }  // namespace ostium::app

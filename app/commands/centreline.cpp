@@ -11,6 +11,7 @@
 #include "app/command_line/mesh_unit.h"
 #include "app/command_line/progress.h"
 #include "app/command_line/read_vessel.h"
+#include "app/commands/import/file_axes.h"
 #include "data/catalogue/case/tree_file.h"
 #include "vascular/anatomy/lumen/lumen_parts.h"
 #include "vascular/geometry/centreline/reach.h"
@@ -113,8 +114,14 @@ int run(const Arguments& a) {
     const Eigen::Vector3d p = opening.middle / metres(unit);
     fmt::print("open, so it got a lid: at {:.2f} {:.2f} {:.2f} {}\n", p.x(), p.y(), p.z(), name_of(unit));
   }
-  fmt::print("{}: {} branches, {} spheres, in the mesh's axes and in {}; looked at {:.2f} mm\n", a.output,
-             found.tree.branches.size(), found.tree.spheres(), in_json ? "mm" : name_of(unit), 1e3 * found.voxel_m);
+  for (const Eigen::Vector3d& cut : found.cuts) {
+    const Eigen::Vector3d p = cut / metres(unit);
+    fmt::print("a loop was cut open: at {:.2f} {:.2f} {:.2f} {}\n", p.x(), p.y(), p.z(), name_of(unit));
+  }
+  const std::string axes = axes_said_by(a.mesh);
+  fmt::print("{}: {} branches, {} spheres, in the mesh's axes{} and in {}; looked at {:.2f} mm\n", a.output,
+             found.tree.branches.size(), found.tree.spheres(), axes.empty() ? "" : ", " + axes + ",",
+             in_json ? "mm" : name_of(unit), 1e3 * found.voxel_m);
   for (const vascular::TreeBranch& branch : found.tree.branches)
     fmt::print("  {:>3} from {:>3}  {:7.1f} mm, radius {:.2f} to {:.2f} mm\n", branch.name,
                branch.parent < 0 ? "-" : found.tree.branches[static_cast<std::size_t>(branch.parent)].name,

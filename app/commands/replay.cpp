@@ -219,7 +219,11 @@ int check_same(const Arguments& a, Replay& replay, Json& told) {
 
 /// `told` gets what was written.
 int look_inside(const Arguments& a, const Replay& replay, Json& told) {
-  if (!replay.model.has_patient()) throw data::LoadError(a.file + ": --inside is for cases; a mesh has no branches");
+  if (!replay.model.has_patient())
+    throw data::LoadError(
+        a.file +
+        ": --inside looks from one coronary artery into another, and these vessels have none: a mesh, "
+        "or a case in which no heart was recognised");
   show_progress("looking into " + a.inside);
   const Angioscopy seen = look_inside(replay.model, replay.state, a.inside, a.picture.pixels);
   show_progress("");

@@ -26,3 +26,11 @@ expect 3 "not those that the run was made in" "$ostium" report "$folder/in-lines
 sed 's/Radius/Curvature/' "$folder/lines.mrk.json" >"$folder/bare.mrk.json"
 expect 3 "has no radii; expected a measurement" "$ostium" centreline "$folder/bare.mrk.json" -o "$folder/tree.json"
 expect 3 "makes a case of them" "$ostium" frame "$folder/lines.mrk.json" -o "$folder/frame.png"
+# What a file says of its axes holds, also against --axes; places are said in the file's own.
+sed 's/"type": "Curve"/&, "coordinateSystem": "RAS"/' "$folder/lines.mrk.json" >"$folder/ras.mrk.json"
+expect 0 "axes: RAS, as the file says" "$ostium" import "$folder/ras.mrk.json" --entry 0,0,0 -o "$folder/ras"
+grep -A3 '"axes": ' "$folder/ras/import.json" | grep -q -- -1.0
+expect 3 "its axes are RAS, and --axes says LPS" "$ostium" import "$folder/ras.mrk.json" --axes LPS -o "$folder/ras"
+expect 0 "axes, RAS" "$ostium" centreline "$folder/ras.mrk.json" -o "$folder/ras.json"
+grep -q '^\[40.0' "$folder/ras.json"
+expect 3 "expected files in the same axes" "$ostium" import "$folder/ras.mrk.json" "$folder/lines.mrk.json" -o "$folder/two"

@@ -12,6 +12,7 @@
 #include "app/command_line/common_options.h"
 #include "app/command_line/progress.h"
 #include "app/command_line/read_vessel.h"
+#include "app/commands/import/file_axes.h"
 #include "app/commands/import/imported.h"
 #include "app/commands/import/mesh_files.h"
 #include "core/base/units.h"
@@ -68,7 +69,8 @@ void declare(Options& options, ImportArguments& a) {
       .show_default();
   options.add("-o,--out", a.output, "A folder for the case, or a name to keep it under").type("DIR|NAME").required();
   add_unit_option(options, a.unit, "What a number in the files means");
-  options.add("--axes", a.axes, "Where x, y, z point to: LPS, RAS, LSA, ...; auto tells by the anatomy").show_default();
+  options.add("--axes", a.axes, "Where x, y, z point to: LPS, RAS, LSA, ...; auto: as the files say, or by the anatomy")
+      .show_default();
   options.add("--entry", a.entry, "Instruments enter at the centreline's point nearest to this one").type("X,Y,Z");
   options.add("--rename", a.renames, "Another name for a branch that was found").type("FOUND=WANTED");
   options.add("--lesion", a.lesions, "A narrowing to put in: branch, from mm, length mm, %")
@@ -82,20 +84,6 @@ void declare(Options& options, ImportArguments& a) {
       .show_default();
   options.add("--picture", a.picture, "What came out of it, with mends and names").type("FILE.png|FILE.svg").writes();
   options.flag("--json", a.json, "What was found and mended, machine-readable");
-}
-
-/// Where the files' axes point to, as DICOM has its letters: left or right, superior or inferior, anterior or
-/// posterior.
-Eigen::Matrix3d axes_of(const std::string& letters) {
-  Eigen::Matrix3d R = Eigen::Matrix3d::Zero();
-  const std::string known = "LRSIAP";
-  for (std::size_t i = 0; i < letters.size() && letters.size() == 3; ++i)
-    if (const auto k = known.find(letters[i]); k != std::string::npos)
-      R(static_cast<int>(k / 2), static_cast<int>(i)) = k % 2 ? -1 : 1;
-  if (std::fabs(R.determinant() - 1) > 1e-9)
-    throw data::LoadError(fmt::format(
-        "the axes \"{}\" are no right-handed row of three; expected for instance LPS (DICOM), RAS or LSA", letters));
-  return R;
 }
 
 vascular::Lesion lesion_of(const std::string& text) {
@@ -157,7 +145,7 @@ class Import {
   void prepare() {
     made_.files = options_.files;
     choose_motion();
-    if (options_.axes != "auto") wanted_.axes = axes_of(options_.axes);
+    if (options_.axes != "auto") axes_of(options_.axes);
     wanted_.names = names_of(options_.renames);
     if (!options_.entry.empty()) mesh_point(options_.entry);
     for (const std::string& text : options_.lesions) made_.the_case.lesions.push_back(lesion_of(text));
@@ -210,6 +198,7 @@ class Import {
     progress_("reading");
     vascular::Mesh raw;
     files_ = options_.files;
+    find_axes();
     for (const std::string& file : files_) {
       const vascular::MeshFile found = read_vessel(file, vascular::LengthUnit::metre, 0);
       made_.skipped += found.skipped_faces;
@@ -219,6 +208,11 @@ class Import {
     for (Eigen::Vector3d& p : raw.vertices) p *= scale;
     place_entry(raw);
     mesh_ = welded(raw);
+  }
+
+  void find_axes() {
+    made_.axes = file_axes(files_, options_.axes);
+    if (!made_.axes.letters.empty()) wanted_.axes = axes_of(made_.axes.letters);
   }
 
   void place_entry(const vascular::Mesh& mesh) {
@@ -231,7 +225,7 @@ class Import {
     made_.unit = unit_of(files, raw, options_.unit);
     if (!made_.unit.known())
       throw vascular::MeshError(fmt::format(
-          "{}: no unit makes a vessel of this: as {} it is {:.3g} mm long and {:.3g} mm wide; if it is one, say its "
+          "{}: no unit makes a vessel of this: as {} it spans {:.3g} mm, and is {:.3g} mm wide; if it is one, say its "
           "unit with --units",
           files.front(), name_of(made_.unit.unit), made_.unit.extent_m / mm, made_.unit.calibre_m / mm));
     rounding_m_ = metres(made_.unit.unit) * rounding_step(raw);
@@ -245,6 +239,7 @@ class Import {
     if (files_.size() < 4)
       throw vascular::MeshError(fmt::format("{}: a sequence has at least 4 frames of a beat, here are {}",
                                             options_.files.front(), files_.size()));
+    find_axes();
     progress_(fmt::format("reading {} frames, the first is {}", files_.size(), files_.front()));
     made_.frames = read_mesh_sequence(files_, vascular::LengthUnit::metre, 0);
     const double scale = metres(find_unit(files_, made_.frames.front()));

@@ -68,6 +68,9 @@ Json report_of(const Imported& x) {
           {"heart_rms_mm", x.found.heart_rms_m / mm},
           {"aorta_doubt", doubt(x.found.aorta_doubt)},
           {"heart_doubt", doubt(x.found.heart_doubt)},
+          {"axes_from", x.axes.letters.empty() ? "anatomy"
+                        : x.axes.said_by_file  ? "file"
+                                               : "option"},
           {"axes", {{R(0, 0), R(0, 1), R(0, 2)}, {R(1, 0), R(1, 1), R(1, 2)}, {R(2, 0), R(2, 1), R(2, 2)}}},
           {"origin_mm", {x.found.shift_P.x() / mm, x.found.shift_P.y() / mm, x.found.shift_P.z() / mm}},
           {"branches", branches},
@@ -82,8 +85,9 @@ void tell(const Imported& x, const std::string& called) {
              : x.found.heart              ? "beating"
              : x.patient.lumen.moving > 0 ? "beating at the root of the aorta"
                                           : "still");
-  fmt::print("units: {}: {:.0f} mm long, {:.1f} mm wide\n", describe(x.unit), x.unit.extent_m / mm,
+  fmt::print("units: {}; spans {:.0f} mm, {:.1f} mm wide\n", describe(x.unit), x.unit.extent_m / mm,
              x.unit.calibre_m / mm);
+  if (x.axes.said_by_file) fmt::print("axes: {}, as the file says\n", x.axes.letters);
   if (x.skipped) fmt::print("{} points or lines in the files were left out\n", x.skipped);
   for (const vascular::RepairNote& note : x.repaired.notes) {
     fmt::print("mended: {} x {}", note.count, note.what);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/command_line/mesh_unit.h"
+#include "app/commands/import/file_axes.h"
 #include "data/catalogue/case/case.h"
 #include "vascular/anatomy/labelling/labelling.h"
 #include "vascular/anatomy/labelling/narrowings.h"
@@ -20,6 +21,7 @@ struct Imported {
   std::vector<std::string> files;                                    ///< as they were given
   int triangles = 0, skipped = 0;                                    ///< read; points and lines that were left out
   MeshUnit unit;
+  FileAxes axes;
   vascular::RepairedMesh repaired;     ///< in the files' frame, m
   vascular::LabelledVessels found;     ///< in the patient frame
   std::vector<vascular::Mesh> frames;  ///< of a beat, in the patient frame; empty: one surface, at rest

@@ -40,7 +40,7 @@ Eigen::Vector3d point(const std::string& text, const char* option, vascular::Len
 RunSetup setup_of(const SessionArguments& a) {
   RunSetup setup;
   setup.seed = a.seed;
-  if (vascular::has_mesh_ending(a.vessel)) {
+  if (vascular::names_mesh(a.vessel)) {
     if (a.entry.empty() || a.towards.empty())
       throw data::LoadError(a.vessel +
                             " is a mesh: --entry X,Y,Z and --towards X,Y,Z say where an instrument comes in");

@@ -36,7 +36,7 @@ std::string key_of(const RunSetup& setup) {
 
 std::shared_ptr<const VesselHandle> of_case(const std::string& name, std::optional<std::uint64_t> person) {
   RunSetup setup;
-  if (vascular::has_mesh_ending(name))
+  if (vascular::names_mesh(name))
     throw py::value_error(name + ": is a mesh; expected a case, or Vessel.from_mesh(path, unit, entry, towards)");
   set_vessel(name, vascular::LengthUnit::millimetre, setup);
   setup.person = person;

@@ -57,7 +57,7 @@ std::string shape_of(const data::Case& c) {
 
 void set_vessel(const std::string& case_or_mesh, vascular::LengthUnit unit, RunSetup& setup) {
   setup.vessel = case_or_mesh;
-  if (vascular::has_mesh_ending(case_or_mesh)) {
+  if (vascular::names_mesh(case_or_mesh)) {
     setup.mesh = read_mesh(case_or_mesh, unit).mesh;
     setup.shape = shape_of(setup.mesh.vertices);
     return;

@@ -30,12 +30,12 @@ double number(const JsonValue& value, double least, double most, const char* wha
   return value.number;
 }
 
-/// What stands in "position" times this is in LPS.
-Eigen::Vector3d to_lps(const JsonValue& curve) {
+/// Of what stands in "position".
+std::string axes_of(const JsonValue& curve) {
   const JsonValue* const system = curve.find("coordinateSystem");
   // Numbers are those of older Slicers (vtkMRMLStorageNode).
-  if (!system || system->text == "LPS" || system->text == "1") return Eigen::Vector3d::Ones();
-  if (system->text == "RAS" || system->text == "0") return {-1, -1, 1};
+  if (!system || system->text == "LPS" || system->text == "1") return "LPS";
+  if (system->text == "RAS" || system->text == "0") return "RAS";
   system->refuse("\"LPS\" or \"RAS\"");
 }
 
@@ -73,7 +73,6 @@ void require_in_order(const std::vector<vascular::CoursePoint>& course, const st
 
 std::vector<vascular::CoursePoint> course_of(const JsonValue& curve) {
   if (const JsonValue* const unit = curve.find("coordinateUnits"); unit && unit->text != "mm") unit->refuse("\"mm\"");
-  const Eigen::Vector3d lps = to_lps(curve);
   const JsonValue& points = member(curve, "controlPoints", JsonValue::Type::array, "a list of control points");
   const std::vector<JsonValue>& radii = radii_of(curve, points.items.size());
   std::vector<vascular::CoursePoint> course;
@@ -87,8 +86,7 @@ std::vector<vascular::CoursePoint> course_of(const JsonValue& curve) {
     if (position.items.size() != 3) position.refuse("[x, y, z] in mm");
     vascular::CoursePoint point;
     for (int k = 0; k < 3; ++k)
-      point.p[k] =
-          mm * lps[k] * number(position.items[static_cast<std::size_t>(k)], -farthest_mm, farthest_mm, "a coordinate");
+      point.p[k] = mm * number(position.items[static_cast<std::size_t>(k)], -farthest_mm, farthest_mm, "a coordinate");
     point.radius_m = mm * number(radii[i], thinnest_mm, widest_mm, "a radius");
     const double step_m = course.empty() ? 1 : (point.p - course.back().p).norm();
     if (step_m < apart_m) continue;
@@ -112,27 +110,31 @@ int tube_about(const Eigen::Vector3d& p, const std::vector<vascular::Tube>& tube
   return -1;
 }
 
-std::vector<vascular::Tube> tubes_of(const JsonValue& file) {
+Markups markups_of(const JsonValue& file) {
   constexpr const char* wanted = "a list of markups, as 3D Slicer saves it";
-  std::vector<vascular::Tube> tubes;
+  Markups found;
+  std::vector<vascular::Tube>& tubes = found.tubes;
   if (file.type != JsonValue::Type::object) file.refuse(wanted);
   for (const JsonValue& markup : member(file, "markups", JsonValue::Type::array, wanted).items) {
     const JsonValue& type = member(markup, "type", JsonValue::Type::text, "the kind of a markup");
     if (type.text != "Curve") continue;
+    const std::string axes = axes_of(markup);
+    if (!tubes.empty() && axes != found.axes)
+      markup.fail(fmt::format("{} is in {}, and the curves before it are in {}; expected curves in the same axes",
+                              markup.path(), axes, found.axes));
+    found.axes = axes;
     const std::vector<vascular::CoursePoint> course = course_of(markup);
     const int parent = tube_about(course.front().p, tubes);
     tubes.push_back(make_tube(fmt::format("curve {}", tubes.size() + 1), parent, course));
   }
   if (tubes.empty()) file.fail("holds no curve; expected centrelines, as Extract Centerline (SlicerVMTK) makes them");
-  return tubes;
+  return found;
 }
 
 }  // namespace
 
 bool is_markups_file(const std::string& path) { return vascular::in_lower_case(path).ends_with(".mrk.json"); }
-std::vector<vascular::Tube> read_markups(const std::string& file, const std::string& text) {
-  return tubes_of(parse_json(file, text));
-}
-std::vector<vascular::Tube> load_markups(const std::string& file) { return tubes_of(load_json(file)); }
+Markups read_markups(const std::string& file, const std::string& text) { return markups_of(parse_json(file, text)); }
+Markups load_markups(const std::string& file) { return markups_of(load_json(file)); }
 
 }  // namespace ostium::data

@@ -11,9 +11,14 @@ namespace ostium::data {
 /// True for NAME.mrk.json, in whatever case.
 bool is_markups_file(const std::string& path);
 
-/// One tube a curve, in LPS, metres; a curve that begins inside an earlier one is its branch. Throws LoadError with
-/// file, line and what was expected: also without radii, since they make the vessel.
-std::vector<vascular::Tube> load_markups(const std::string& file);
-std::vector<vascular::Tube> read_markups(const std::string& file, const std::string& text);
+struct Markups {
+  std::vector<vascular::Tube> tubes;  ///< one a curve, in the file's axes, metres
+  std::string axes;                   ///< where these point to: "LPS", or "RAS"
+};
+
+/// A curve that begins inside an earlier one is its branch. Throws LoadError with file, line and what was expected:
+/// also without radii, since they make the vessel.
+Markups load_markups(const std::string& file);
+Markups read_markups(const std::string& file, const std::string& text);
 
 }  // namespace ostium::data

@@ -29,7 +29,7 @@ Json curve(const std::vector<std::array<double, 3>>& points, const std::vector<d
 const Json trunk = curve({{0, 0, 0}, {20, 0, 0}, {40, 0, 0}}, {2, 2, 1.5});
 const Json branch = curve({{21, 0.5, 0}, {25, 10, 0}, {30, 20, 0}}, {1, 1, 0.8});
 
-std::vector<vascular::Tube> read(const Json& file) { return read_markups("lines.mrk.json", file.dump(1)); }
+std::vector<vascular::Tube> read(const Json& file) { return read_markups("lines.mrk.json", file.dump(1)).tubes; }
 std::string refusal(const Json& file) {
   return refusal_of([&] { read(file); });
 }
@@ -46,19 +46,23 @@ TEST(Markups, CurvesBecomeTubesWithTheirBranches) {
   EXPECT_LT((tubes[1].nodes.back().p - mm * Eigen::Vector3d(30, 20, 0)).norm(), 1e-9);
 }
 
-TEST(Markups, OfRASGoToLPS) {
+TEST(Markups, KeepTheirAxesAndSayWhichTheyAre) {
   Json ras = trunk;
   ras["coordinateSystem"] = "RAS";
-  const std::vector<vascular::Tube> tubes = read({{"markups", {ras}}});
-  EXPECT_LT((tubes[0].nodes.back().p - mm * Eigen::Vector3d(-40, 0, 0)).norm(), 1e-9);
+  const Markups found = read_markups("lines.mrk.json", Json{{"markups", {ras}}}.dump());
+  EXPECT_EQ(found.axes, "RAS");
+  EXPECT_LT((found.tubes[0].nodes.back().p - mm * Eigen::Vector3d(40, 0, 0)).norm(), 1e-9);
+  EXPECT_EQ(read_markups("lines.mrk.json", Json{{"markups", {trunk}}}.dump()).axes, "LPS");
+  EXPECT_NE(refusal({{"markups", {trunk, ras}}}).find("is in RAS, and the curves before it are in LPS"),
+            std::string::npos);
 }
 
 TEST(Markups, OfOlderSlicersHaveNumbersForRASAndLPS) {
   Json ras = trunk, lps = trunk;
   ras["coordinateSystem"] = "0";
   lps["coordinateSystem"] = "1";
-  EXPECT_NEAR(read({{"markups", {ras}}})[0].nodes.back().p.x(), -40 * mm, 1e-9);
-  EXPECT_NEAR(read({{"markups", {lps}}})[0].nodes.back().p.x(), 40 * mm, 1e-9);
+  EXPECT_EQ(read_markups("lines.mrk.json", Json{{"markups", {ras}}}.dump()).axes, "RAS");
+  EXPECT_EQ(read_markups("lines.mrk.json", Json{{"markups", {lps}}}.dump()).axes, "LPS");
 }
 
 TEST(Markups, PointsThatAreNotPlacedArePassedOver) {

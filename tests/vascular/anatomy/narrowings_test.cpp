@@ -58,5 +58,15 @@ TEST(Narrowings, AHealthyVesselHasNone) {
   EXPECT_TRUE(find_narrowings(branch_with([](double s) { return 2 - 0.01 * s + 0.1 * std::sin(s); })).empty());
 }
 
+TEST(Narrowings, BesideAnAneurysmTheHealthyVesselIsNone) {
+  const auto bulging = [](double s) { return (2 - 0.012 * s) * (1 + 1.5 * notch(s, 60, 10)); };
+  EXPECT_TRUE(find_narrowings(branch_with(bulging)).empty());
+  // One that is there is told by the vessel, and not by the bulge.
+  const auto found = find_narrowings(branch_with([&](double s) { return bulging(s) * (1 - 0.6 * notch(s, 42, 4)); }));
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_NEAR(found[0].at_m, 42e-3, 0.6e-3);
+  EXPECT_NEAR(found[0].stenosis, 0.6, 0.08);
+}
+
 }  // namespace
 }  // namespace ostium::vascular

@@ -150,5 +150,33 @@ TEST(Centreline, WhatHasNoInsideOrIsInPiecesIsRefused) {
       MeshError);
 }
 
+/// A ring has no ends: its lines have the ring's radius everywhere, and it is said where they end.
+TEST(Centreline, OfALoopIsCutOpenAndSaysWhere) {
+  constexpr int rows = 120, columns = 24;
+  constexpr double radius = 1.5e-3, bend = 15e-3;
+  Mesh ring;
+  for (int i = 0; i < rows; ++i)
+    for (int j = 0; j < columns; ++j) {
+      const double along = 2 * units::pi * i / rows, around = 2 * units::pi * j / columns;
+      const double r = bend + radius * std::cos(around);
+      ring.vertices.emplace_back(r * std::cos(along), r * std::sin(along), radius * std::sin(around));
+      const auto at = [](int row, int column) { return row % rows * columns + column % columns; };
+      ring.triangles.push_back({at(i, j), at(i + 1, j), at(i, j + 1)});
+      ring.triangles.push_back({at(i, j + 1), at(i + 1, j), at(i + 1, j + 1)});
+    }
+  for (const bool to_lids : {true, false}) {
+    const CentrelineResult found = find_centrelines(ring, {.start = {}, .ends = {}, .to_lids = to_lids});
+    ASSERT_EQ(found.cuts.size(), 1u);
+    EXPECT_NEAR(found.cuts[0].head<2>().norm(), bend, 1.2 * radius);
+    double length = 0;
+    for (const TreeBranch& branch : found.tree.branches) {
+      length += branch.spheres.back().s_m;
+      EXPECT_NEAR(branch.spheres.front().radius_m, radius, 0.3 * radius);
+      EXPECT_NEAR(branch.spheres.back().radius_m, radius, 0.3 * radius);
+    }
+    EXPECT_NEAR(length, 2 * units::pi * bend, 6 * radius);
+  }
+}
+
 }  // namespace
 }  // namespace ostium::vascular

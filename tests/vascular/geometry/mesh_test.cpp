@@ -11,6 +11,7 @@
 
 #include "tests/vascular/geometry/shapes.h"
 #include "vascular/geometry/mesh/surface_check.h"
+#include "vascular/geometry/mesh_files/formats.h"
 #include "vascular/geometry/mesh_files/open_end.h"
 #include "vascular/geometry/mesh_files/rounding.h"
 #include "vascular/geometry/mesh_files/written_mesh.h"
@@ -226,6 +227,15 @@ TEST(Mesh, AnSTLMayBeInCapitals) {
   EXPECT_EQ(read_mesh(written("capitals.stl", text + "ENDSOLID TUBE\n"), LengthUnit::metre).mesh.triangles.size(),
             sphere.triangles.size());
   EXPECT_NE(refusal(written("capitals.stl", text)).find("is cut short"), std::string::npos);
+  // Some words of it, too.
+  for (const std::string word : {"VERTEX", "ENDFACET", "ENDLOOP", "OUTER LOOP"}) {
+    std::string some = text + "ENDSOLID TUBE\n";
+    for (std::size_t at = 0; (at = some.find(word, at)) != std::string::npos; ++at)
+      some.replace(at, word.size(), in_lower_case(word));
+    EXPECT_EQ(read_mesh(written("capitals.stl", some), LengthUnit::metre).mesh.triangles.size(),
+              sphere.triangles.size())
+        << word;
+  }
 }
 
 TEST(Mesh, ARefusalIsShortWhateverTheFileHolds) {

@@ -102,6 +102,30 @@ TEST_P(UnitMark, OthersSayNone) {
   EXPECT_EQ(unit_mark_of(path_), std::nullopt);
 }
 
+/// As 3D Slicer writes them.
+TEST_P(UnitMark, AxesStandBesideTheUnit) {
+  const std::string path = path_, sign = path.ends_with(".ply")   ? "ply\nformat ascii 1.0\ncomment "
+                                         : path.ends_with(".obj") ? "# "
+                                                                  : "";
+  for (const std::string axes : {"LPS", "RAS"}) {
+    write(sign + "3D Slicer output. SPACE=" + axes + "\nend_header\n");
+    EXPECT_EQ(axes_mark_of(path_), axes);
+  }
+  for (const char* other : {"3D Slicer output.\n", "SPACE=XYZ\n", "SPACE = LPS\n"}) {
+    write(sign + other);
+    EXPECT_EQ(axes_mark_of(path_), std::nullopt) << other;
+  }
+}
+
+TEST(LengthUnits, AxesOfVTKAreInItsTitle) {
+  const std::string path = testing::TempDir() + "title_" + std::to_string(getpid()) + ".vtk";
+  std::ofstream(path) << "# vtk DataFile Version 4.2\n3D Slicer output. SPACE=RAS\nASCII\n";
+  EXPECT_EQ(axes_mark_of(path), "RAS");
+  std::ofstream(path) << "# vtk DataFile Version 4.2\nvtk output\nSPACE=RAS\n";
+  EXPECT_EQ(axes_mark_of(path), std::nullopt);
+  std::remove(path.c_str());
+}
+
 INSTANTIATE_TEST_SUITE_P(LengthUnits, UnitMark, testing::Values(".ply", ".obj", ".stl"));
 
 }  // namespace

@@ -46,9 +46,14 @@ Eigen::Matrix3d settled_axes(const LabellingOptions& options, const Similarity* 
 
 /// Recomputes the tree with its ends in order of importance: the first ones become the main branches. A part in which
 /// nothing was recognised goes from lid to lid, wherever its aorta or artery was thought to begin.
-void find_tree_anew(LumenPart& part) {
+void find_tree_anew(LumenPart& part, std::vector<std::string>& notes) {
   if (part.roles.empty()) {
-    part.tree = find_centrelines(part.mesh).tree;
+    CentrelineResult found = find_centrelines(part.mesh);
+    part.tree = std::move(found.tree);
+    for (const Eigen::Vector3d& p : found.cuts)
+      notes.push_back(
+          fmt::format("a loop was cut open at {:.1f} {:.1f} {:.1f} mm in the file's axes: vessels are a tree",
+                      p.x() / mm, p.y() / mm, p.z() / mm));
     return;
   }
   // An aorta's valve and an artery's bed are not where a lid was put.
@@ -160,7 +165,7 @@ LabelledVessels label_vessels(const Mesh& lumen, const LabellingOptions& options
   out.R_PF = settled_axes(options, aorta ? &aorta->fit : nullptr, heart ? &heart->fit : nullptr, out.notes);
   for (LumenPart& part : parts) {
     say("naming branches");
-    find_tree_anew(part);
+    find_tree_anew(part, out.notes);
   }
 
   // From here on everything is in the patient's axes.

@@ -8,6 +8,8 @@ namespace {
 
 constexpr double near_m = 4e-3, far_m = 16e-3;  // stretch to compare with, proximally and distally
 constexpr double widest_m = 4e-3;               // radius
+/// Where the vessel is wider than that many times its other side, it tapers no more: it bulges.
+constexpr double most_taper = 1.5;
 /// Narrow places with less between them are one lesion: Sianos et al. 2005 (SYNTAX score), EuroIntervention 1:219.
 constexpr double apart_diameters = 3;
 
@@ -33,7 +35,9 @@ std::vector<FoundNarrowing> find_narrowings(const SphereTree& tree, double least
       // An end tapers; a narrowing has wide vessel on both sides.
       if (before <= 0 || behind <= 0 || sphere.s_m >= length - 2 * near_m || before >= widest_m) continue;
       if (behind < 0.5 * before || before < 0.5 * behind) continue;
-      const double reference = (before + behind) / 2, stenosis = 1 - sphere.radius_m / reference;
+      const double reference = std::min(before, behind) *
+                               (1 + std::min(most_taper, std::max(before, behind) / std::min(before, behind))) / 2;
+      const double stenosis = 1 - sphere.radius_m / reference;
       if (stenosis < least) continue;
       FoundNarrowing here = {.branch = branch.name,
                              .at_m = sphere.s_m,

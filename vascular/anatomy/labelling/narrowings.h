@@ -16,7 +16,8 @@ struct FoundNarrowing {
   Eigen::Vector3d p = Eigen::Vector3d::Zero();
 };
 
-/// In branches narrower than 8 mm: where the diameter is smaller, by the fraction `least` or more, than on both sides.
+/// In branches narrower than 8 mm: where the diameter is smaller, by the fraction `least` or more, than on both sides;
+/// next to a bulge, than on the side without.
 std::vector<FoundNarrowing> find_narrowings(const SphereTree& tree, double least = 0.3);
 
 }  // namespace ostium::vascular

@@ -27,7 +27,7 @@ struct LumenPart {
 /// Throws MeshError if the longest way through a lumen is not several times as long as its widest place, a diameter.
 void require_vessel(double longest_m, double widest_m);
 
-/// Widest first. Throws MeshError if none contains a vessel.
+/// Widest first. Throws MeshError if none contains a vessel, or all are too small for one.
 std::vector<LumenPart> lumen_parts(const Mesh& lumen, const Progress& say);
 
 }  // namespace ostium::vascular

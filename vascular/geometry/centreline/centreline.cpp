@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 #include <queue>
+#include <unordered_map>
+#include <unordered_set>
 
 #include "vascular/geometry/centreline/line_fit.h"
 #include "vascular/geometry/centreline/voxels.h"
@@ -17,6 +19,8 @@ namespace {
 
 constexpr double unreached = std::numeric_limits<double>::infinity();
 constexpr double reach = 2;            // a path covers what lies within this many radii
+constexpr double cut_reach = 4;        // radii from its end in which a line looks for what was cut off from it
+constexpr double shortest_loop = 8;    // radii around one
 constexpr double widest_from_lid = 3;  // radii: a widest place this near to a lid has no strand of its own to it
 
 struct Paths {
@@ -106,7 +110,39 @@ class Skeleton {
 
   const std::vector<Strand>& strands() const { return strands_; }
 
+  /// Whether a strand ends within a loop: what lies beyond its end is reached by a long way round.
+  bool ends_in_loop(const Strand& strand) const {
+    const int end = strand.voxels.back();
+    double radius = 0;
+    for (std::size_t i = strand.voxels.size(); i-- > 0;) {
+      radius = std::max(radius, voxels_.to_wall_m(strand.voxels[i]));
+      if (away_m(strand.voxels[i], end) > cut_reach * radius) break;
+    }
+    std::unordered_map<int, int> joins;  // of a voxel: where its way from the root meets the strand's
+    for (int v = end; v >= 0; v = paths_.before[v]) joins[v] = v;
+    const auto joins_at = [&](int v) {
+      std::vector<int> way;
+      for (; !joins.contains(v); v = paths_.before[v]) way.push_back(v);
+      for (int w : way) joins[w] = joins[v];
+      return joins[v];
+    };
+    std::unordered_set<int> seen = {end};
+    std::vector<int> open = {end};
+    while (!open.empty()) {
+      const int v = open.back(), at = joins_at(v);
+      open.pop_back();
+      const double round_m = paths_.length_m[end] + paths_.length_m[v] - 2 * paths_.length_m[at];
+      if (round_m > shortest_loop * std::max(radius, voxels_.to_wall_m(at))) return true;
+      voxels_.neighbours(v, [&](int next, double) {
+        if (away_m(next, end) < cut_reach * radius && seen.insert(next).second) open.push_back(next);
+      });
+    }
+    return false;
+  }
+
  private:
+  double away_m(int a, int b) const { return (voxels_.place(a) - voxels_.place(b)).norm(); }
+
   bool stands_out(int end) const {
     if (strands_.empty()) return true;
     int v = end;
@@ -158,8 +194,8 @@ double width_of_end_m(const Voxels& voxels, const Strand& strand) {
 }
 
 /// The widest end: the widest point itself if only one strand leaves it, otherwise the end of the strand from there
-/// that is widest.
-int widest_end(const Voxels& voxels) {
+/// that is widest. Where all ends are those of loops, the widest point, too.
+int widest_end(const Voxels& voxels, bool loops) {
   int widest = 0;
   for (int v = 1; v < voxels.count(); ++v)
     if (voxels.to_wall_m(v) > voxels.to_wall_m(widest)) widest = v;
@@ -179,9 +215,31 @@ int widest_end(const Voxels& voxels) {
   double best = 0;
   for (const Strand& strand : skeleton.strands()) {
     const double width = width_of_end_m(voxels, strand);
-    if (width > best) best = width, end = strand.voxels.back();
+    if (width > best && !(loops && skeleton.ends_in_loop(strand))) best = width, end = strand.voxels.back();
   }
   return end;
+}
+
+/// By corners less edges and triangles of one closed piece, which are 2 less for each.
+bool has_loops(const Mesh& mesh) {
+  std::vector<bool> used(mesh.vertices.size());
+  for (const auto& t : mesh.triangles)
+    for (int v : t) used[static_cast<std::size_t>(v)] = true;
+  return 2 * std::count(used.begin(), used.end(), true) - static_cast<long>(mesh.triangles.size()) < 4;
+}
+
+/// Two lines end at one cut.
+void add_cut(const TreeSphere& end, std::vector<Eigen::Vector3d>& cuts) {
+  if (std::ranges::none_of(cuts,
+                           [&](const Eigen::Vector3d& p) { return (p - end.p).norm() < 2 * cut_reach * end.radius_m; }))
+    cuts.push_back(end.p);
+}
+
+/// Whether several strands leave a root in the middle of a lumen.
+bool runs_through(const Skeleton& skeleton, const Voxels& voxels, int root) {
+  return std::ranges::count_if(skeleton.strands(), [&](const Strand& strand) {
+           return (voxels.place(strand.voxels.front()) - voxels.place(root)).norm() < voxels.to_wall_m(root);
+         }) > 1;
 }
 
 }  // namespace
@@ -191,7 +249,8 @@ CentrelineResult find_centrelines(const Mesh& mesh, const CentrelineOptions& opt
   const Voxels voxels(mesh, wall, options.most_voxels);
   if (voxels.count() == 0)
     throw MeshError("the mesh has no inside; expected a closed surface (ostium check says where not)");
-  const int root = options.start ? voxels.nearest(*options.start) : widest_end(voxels);
+  const bool loops = has_loops(mesh);
+  const int root = options.start ? voxels.nearest(*options.start) : widest_end(voxels, loops);
   Skeleton skeleton(voxels, root);
   for (const Eigen::Vector3d& end : options.ends) {
     const int voxel = voxels.nearest(end);
@@ -206,18 +265,21 @@ CentrelineResult find_centrelines(const Mesh& mesh, const CentrelineOptions& opt
   }
   if (options.ends.empty()) skeleton.add_all();
 
-  CentrelineResult result{.tree = {}, .voxel_m = voxels.size_m()};
+  CentrelineResult result{.tree = {}, .voxel_m = voxels.size_m(), .cuts = {}};
+  const bool through = loops && runs_through(skeleton, voxels, root);
   for (const Strand& strand : skeleton.strands()) {
     TreeBranch branch{.name = std::to_string(result.tree.branches.size() + 1), .parent = strand.parent, .spheres = {}};
     std::vector<Eigen::Vector3d> line;
     if (strand.parent >= 0) line.push_back(voxels.place(skeleton.strands()[strand.parent].voxels[strand.leaves_at]));
     for (int v : strand.voxels) line.push_back(voxels.place(v));
     branch.spheres = fitted_spheres(line, wall, voxels.size_m());
-    if (options.to_lids)
+    const bool cut = loops && options.ends.empty() && skeleton.ends_in_loop(strand);
+    if (options.to_lids && !cut)
       carry_to_lid(branch.spheres, wall);
     else
-      trim(branch.spheres);
-    if (strand.parent < 0 && options.to_lids) {
+      trim(branch.spheres, cut ? 0.95 : 0.75);
+    if (cut) add_cut(branch.spheres.back(), result.cuts);
+    if (strand.parent < 0 && options.to_lids && !through) {
       turn_round(branch.spheres);
       carry_to_lid(branch.spheres, wall, options.start ? 1 : widest_from_lid);
       turn_round(branch.spheres);

@@ -23,8 +23,9 @@ struct CentrelineOptions {
 };
 
 struct CentrelineResult {
-  SphereTree tree;     ///< branches "1", "2", ... longest first
-  double voxel_m = 0;  ///< vessels narrower than two of these may be missed
+  SphereTree tree;                    ///< branches "1", "2", ... longest first
+  double voxel_m = 0;                 ///< vessels narrower than two of these may be missed
+  std::vector<Eigen::Vector3d> cuts;  ///< where loops of the lumen were cut open: a tree has none
 };
 
 /// Throws MeshError if the mesh has no interior, or a picked point is in a different piece than the start.

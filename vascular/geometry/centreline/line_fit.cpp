@@ -136,8 +136,8 @@ void carry_to_lid(std::vector<TreeSphere>& spheres, const BoundingVolumeHierarch
   }
 }
 
-void trim(std::vector<TreeSphere>& spheres) {
-  while (spheres.size() > 2 && spheres.back().radius_m < 0.75 * spheres[spheres.size() - 2].radius_m)
+void trim(std::vector<TreeSphere>& spheres, double least) {
+  while (spheres.size() > 2 && spheres.back().radius_m < least * spheres[spheres.size() - 2].radius_m)
     spheres.pop_back();
 }
 

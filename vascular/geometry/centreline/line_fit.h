@@ -17,8 +17,9 @@ std::vector<TreeSphere> fitted_spheres(std::vector<Eigen::Vector3d> line, const 
 /// one shorter than the lid's reach only loses its tip.
 void carry_to_lid(std::vector<TreeSphere>& spheres, const BoundingVolumeHierarchy& wall, double beyond = 1);
 
-/// Removes spheres at the tip that shrink much faster than a vessel tapers: the line then ends inside the lumen.
-void trim(std::vector<TreeSphere>& spheres);
+/// Removes spheres at the tip that shrink much faster than a vessel tapers, from one to the next by less than `least`
+/// of the radius: the line then ends inside the lumen.
+void trim(std::vector<TreeSphere>& spheres, double least = 0.75);
 
 /// Last sphere first.
 void turn_round(std::vector<TreeSphere>& spheres);

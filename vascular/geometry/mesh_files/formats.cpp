@@ -32,6 +32,11 @@ bool has_mesh_ending(const std::string& path) {
   return std::ranges::find(mesh_endings(), ending_of(path)) != mesh_endings().end();
 }
 
+bool names_mesh(const std::string& path) {
+  std::error_code none;
+  return has_mesh_ending(path) && !std::filesystem::is_directory(path, none);
+}
+
 bool is_utf16(std::string_view beginning) {
   if (beginning.starts_with("\xFF\xFE") || beginning.starts_with("\xFE\xFF")) return true;
   return beginning.size() > 1 && (beginning[0] == '\0') != (beginning[1] == '\0');

@@ -16,6 +16,8 @@ std::string in_lower_case(std::string text);
 /// A file's ending in lower case with its dot; empty if it has none.
 std::string ending_of(const std::string& path);
 bool has_mesh_ending(const std::string& path);
+/// The same, and no folder: a case's may be called anything.
+bool names_mesh(const std::string& path);
 /// Whether a text that begins so is UTF-16, which editors and shells of Windows write unless told otherwise: by its
 /// mark, or by a letter of ASCII.
 bool is_utf16(std::string_view beginning);

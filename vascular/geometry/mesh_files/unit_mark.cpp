@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <fstream>
 #include <sstream>
+#include <vector>
 
 #include "vascular/geometry/mesh_files/formats.h"
 
@@ -26,6 +27,34 @@ std::optional<LengthUnit> unit_of_words(std::istringstream words) {
   return std::nullopt;
 }
 
+/// Of the words "SPACE=LPS".
+std::optional<std::string> axes_of_words(const std::string& text) {
+  std::istringstream words(text);
+  for (std::string word; words >> word;)
+    for (const char* axes : {"LPS", "RAS"})
+      if (word == std::string("SPACE=") + axes) return axes;
+  return std::nullopt;
+}
+
+std::string beginning_of(const std::string& path) {
+  std::string start(looked_at, '\0');
+  std::ifstream file(path, std::ios::binary);
+  file.read(start.data(), static_cast<std::streamsize>(start.size()));
+  start.resize(static_cast<std::size_t>(file.gcount()));
+  return start;
+}
+
+/// What is behind the sign of a comment, in the lines before the numbers.
+std::vector<std::string> comments_in(const std::string& beginning, const std::string& ending) {
+  std::vector<std::string> comments;
+  const std::string sign = ending == ".ply" ? "comment" : ending == ".obj" ? "#" : "";
+  if (sign.empty()) return comments;
+  std::istringstream lines(beginning);
+  for (std::string line; std::getline(lines, line) && !line.starts_with("end_header");)
+    if (line.starts_with(sign)) comments.push_back(line.substr(sign.size()));
+  return comments;
+}
+
 }  // namespace
 
 std::string with_unit_mark(std::string bytes, const std::string& ending, LengthUnit unit) {
@@ -43,17 +72,25 @@ std::string with_unit_mark(std::string bytes, const std::string& ending, LengthU
 
 std::optional<LengthUnit> unit_mark_of(const std::string& path) {
   const std::string ending = ending_of(path);
-  std::string start(looked_at, '\0');
-  std::ifstream file(path, std::ios::binary);
-  file.read(start.data(), static_cast<std::streamsize>(start.size()));
-  start.resize(static_cast<std::size_t>(file.gcount()));
+  const std::string start = beginning_of(path);
   if (ending == ".stl") return unit_of_words(std::istringstream(start.substr(0, start.find('\0'))));
-  const std::string comment = ending == ".ply" ? "comment" : ending == ".obj" ? "#" : "";
-  if (comment.empty()) return std::nullopt;
-  std::istringstream lines(start);
-  for (std::string line; std::getline(lines, line) && line != "end_header";)
-    if (line.starts_with(comment))
-      if (const auto unit = unit_of_words(std::istringstream(line.substr(comment.size())))) return unit;
+  for (const std::string& comment : comments_in(start, ending))
+    if (const auto unit = unit_of_words(std::istringstream(comment))) return unit;
+  return std::nullopt;
+}
+
+std::optional<std::string> axes_mark_of(const std::string& path) {
+  const std::string ending = ending_of(path), start = beginning_of(path);
+  if (ending == ".stl") {  // the header of a binary file, or the first line of text
+    const std::string header = start.substr(0, std::min(start.find_first_of(std::string("\0\n", 2)), looked_at));
+    return axes_of_words(start.starts_with("solid") ? header : header.substr(0, stl_header));
+  }
+  if (ending == ".vtk") {
+    const std::size_t title = start.find('\n') + 1;
+    return axes_of_words(start.substr(title, start.find('\n', title) - title));
+  }
+  for (const std::string& comment : comments_in(start, ending))
+    if (const auto axes = axes_of_words(comment)) return axes;
   return std::nullopt;
 }
 

@@ -14,6 +14,7 @@ namespace ostium::vascular {
 
 namespace {
 
+constexpr std::size_t facet_bytes = 4000;  // more than one has
 constexpr std::uintmax_t header_bytes = 84, triangle_bytes = 50;
 
 /// Binary files may begin with "solid" as well, but they have zeros in their header or in their first numbers.
@@ -87,7 +88,11 @@ std::string stl_in_capitals(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   if (!is_text(file)) return "";
   std::string text(std::istreambuf_iterator<char>(file), {});
-  return text.find("facet") == std::string::npos ? in_lower_case(std::move(text)) : "";
+  // The words of the first facet, behind the name.
+  const std::string facet = text.substr(std::min(text.find_first_of("\r\n"), text.size()), facet_bytes);
+  for (const char* word : {"facet", "outer", "loop", "vertex"})
+    if (facet.find(word) == std::string::npos) return in_lower_case(std::move(text));
+  return "";
 }
 
 }  // namespace ostium::vascular

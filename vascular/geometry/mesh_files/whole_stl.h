@@ -9,7 +9,7 @@ namespace ostium::vascular {
 /// end with "endsolid". What is neither passes; assimp reports it.
 void check_stl_whole(const std::string& path);
 
-/// The text of a file whose words are in capitals, in small letters, as assimp knows no others; else empty.
+/// The text of a file of which some words are in capitals, in small letters, as assimp knows no others; else empty.
 std::string stl_in_capitals(const std::string& path);
 
 }  // namespace ostium::vascular

@@ -3,8 +3,8 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <queue>
-#include <unordered_map>
 
 #include "vascular/geometry/mesh/bounding_volume_hierarchy.h"
 
@@ -19,9 +19,10 @@ constexpr double narrowest = 0.8;        // a lumen is wider than this many wall
 constexpr double narrowest_solid = 0.1;  // or than this many of a wall that is a solid
 constexpr double most_uneven = 1.5;      // ratio of a solid's thicknesses on opposite sides of the lumen
 constexpr double usual_extent_m = 0.25;
-constexpr double rim = 4;           // thicknesses from an outer shell: triangles that may join it to the inner one
-constexpr double least_patch = 25;  // smallest area of a patch, in squared thicknesses
-constexpr int most_rays = 60'000;   // in finer meshes, triangles take the label of a nearby one
+constexpr double rim = 4;              // thicknesses from an outer shell: triangles that may join it to the inner one
+constexpr double least_patch = 25;     // smallest area of a patch, in squared thicknesses
+constexpr double least_nested = 0.75;  // share of a shell's wall that lies within others: vessels that cross have less
+constexpr int most_rays = 60'000;      // in finer meshes, triangles take the label of a nearby one
 
 class ShellFinder {
  public:
@@ -50,10 +51,11 @@ class ShellFinder {
       // artery, or through it).
       const bool another = sheets_.piece[inside[0].triangle] != sheets_.piece[t];
       if (aligned < 0 && (side < 0 || another) && sides_known(sheets_)) continue;
+      if (another && sides_known(sheets_) && !nested(sheets_.piece[inside[0].triangle])) continue;
       // Of the two sides of a solid, the lumen is the narrower.
       const double free = solid ? std::max(2 * wall, lumen) : 2 * wall;
       if (!tree_.hits(middles_[t] - 1e-7 * in, -in, free).empty()) continue;
-      if (reached(t, inside[0].triangle, along_surface * wall)) continue;
+      if (reached_along(sheets_, middles_, t, inside[0].triangle, along_surface * wall)) continue;
       return wall;
     }
     return 0;
@@ -73,6 +75,37 @@ class ShellFinder {
   const Eigen::Vector3d& middle(int t) const { return middles_[t]; }
 
  private:
+  /// Whether nearly all of a piece lies within others. One that is partly outside crosses them: a branch, whose
+  /// beginning lies in its parent.
+  bool nested(int piece) const {
+    if (nested_.empty()) {
+      nested_.resize(static_cast<std::size_t>(sheets_.pieces));
+      triangles_of_.resize(static_cast<std::size_t>(sheets_.pieces));
+      for (int t = 0; t < static_cast<int>(sheets_.piece.size()); ++t) triangles_of_[sheets_.piece[t]].push_back(t);
+    }
+    if (!nested_[piece]) {
+      constexpr std::size_t looked_at = 400;
+      const std::vector<int>& own = triangles_of_[piece];
+      double all = 0, within = 0;
+      for (std::size_t k = 0; k < own.size(); k += 1 + own.size() / looked_at) {
+        all += areas_[own[k]];
+        if (within_others(own[k])) within += areas_[own[k]];
+      }
+      nested_[piece] = within >= least_nested * all;
+    }
+    return *nested_[piece];
+  }
+
+  /// By how often a ray outwards leaves other pieces.
+  bool within_others(int t) const {
+    constexpr double anywhere_m = 10;
+    int leaves = 0;
+    for (const auto& hit : tree_.hits(middles_[t] + 1e-7 * normals_[t], normals_[t], anywhere_m))
+      if (sheets_.piece[hit.triangle] != sheets_.piece[t])
+        leaves += normals_[hit.triangle].dot(normals_[t]) > 0 ? 1 : -1;
+    return leaves != 0;
+  }
+
   /// Whether a ray inwards from triangle `t` goes through a wall that was drawn as one solid: out of it into the lumen,
   /// into it again, and out of as thick a wall as before.
   bool solid_wall(int t, const std::vector<BoundingVolumeHierarchy::Hit>& inside) const {
@@ -86,34 +119,13 @@ class ShellFinder {
     return ratio < most_uneven && ratio > 1 / most_uneven;
   }
 
-  bool reached(int from, int to, double limit_m) const {
-    std::priority_queue<std::pair<double, int>, std::vector<std::pair<double, int>>, std::greater<>> open;
-    std::unordered_map<int, double> best;
-    open.push({0, from});
-    best[from] = 0;
-    while (!open.empty()) {
-      const auto [d, t] = open.top();
-      open.pop();
-      if (t == to) return true;
-      if (d > best[t]) continue;
-      for (int k = 0; k < 3; ++k) {
-        const int o = sheets_.opposite[3 * t + k];
-        if (o < 0) continue;
-        const double next = d + (middles_[o / 3] - middles_[t]).norm();
-        const auto [entry, fresh] = best.try_emplace(o / 3, next);
-        if (next + (middles_[o / 3] - middles_[to]).norm() > limit_m || (!fresh && entry->second <= next)) continue;
-        entry->second = next;
-        open.push({next, o / 3});
-      }
-    }
-    return false;
-  }
-
   const Mesh& mesh_;
   const Sheets& sheets_;
   BoundingVolumeHierarchy tree_;
   std::vector<double> areas_;
   std::vector<Eigen::Vector3d> normals_, middles_;
+  mutable std::vector<std::optional<bool>> nested_;  ///< of each piece that was asked about
+  mutable std::vector<std::vector<int>> triangles_of_;
 };
 
 /// Patches of equally labelled triangles; those that satisfy `small` get the other label.

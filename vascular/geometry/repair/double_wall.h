@@ -12,9 +12,10 @@ struct DoubleWall {
 };
 
 /// A triangle is part of an outer shell if there is nothing close on one side and, within 5 mm on the other, another
-/// shell that is not reached along the surface, with a wider space (the lumen) behind it. A wall that was drawn as one
-/// solid, with rims that join its two sides, may be up to 20 mm thick, with a lumen down to a tenth of that. Only
-/// patches count, not single triangles. `mesh` is oriented.
+/// shell that is not reached along the surface, with a wider space (the lumen) behind it. A shell of its own is nested
+/// in the outer one nearly all along; vessels that cross are none. A wall that was drawn as one solid, with rims that
+/// join its two sides, may be up to 20 mm thick, with a lumen down to a tenth of that. Only patches count, not single
+/// triangles. `mesh` is oriented.
 DoubleWall find_double_wall(const Mesh& mesh, const Sheets& sheets);
 
 /// The same mesh without its outer shells, in whatever unit: it is looked at as if it were as long as vessels are. The

@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <set>
 
 #include "core/base/units.h"
@@ -17,6 +18,7 @@
 #include "vascular/geometry/repair/double_wall.h"
 #include "vascular/geometry/repair/facing_ends.h"
 #include "vascular/geometry/repair/finish.h"
+#include "vascular/geometry/repair/limbs.h"
 #include "vascular/geometry/repair/prolong.h"
 #include "vascular/geometry/repair/sheets.h"
 #include "vascular/geometry/repair/taper.h"
@@ -27,10 +29,11 @@ namespace {
 
 using units::mm;
 constexpr double least_voxel_m = 0.12e-3, most_voxel_m = 0.4e-3;
-constexpr double voxels_across = 3.5;       // across the narrowest vessels
+constexpr double voxels_across = 3.5;   // across the narrowest vessels
+constexpr double voxels_between = 2.2;  // of one lumen's limbs, so that they stay apart
+constexpr double least_between_m = 0.05e-3;
 constexpr double most_wall_voxels = 1.5e6;  // of the level set's surface
 constexpr double most_cells = 4e6;          // the same of a voxel that was asked for: 4 GB, and some minutes
-constexpr double crumb_m3 = 8e-9;           // smaller lumens are dropped
 constexpr int smoothing_rounds = 16;
 constexpr double least_missing_m = 0.8e-3;  // a larger gap between ends means a missing piece
 
@@ -46,6 +49,7 @@ class Mender {
     drop_outer_walls();
     close_openings();
     result_.voxel_m = options_.voxel_m > 0 ? affordable_voxel() : chosen_voxel();
+    keep_limbs_apart();
     say("filling the lumen");
     Mesh lumen = outer_surface(mesh_, result_.voxel_m);
     std::vector<Mesh> lumens = whole_lumens(lumen);
@@ -60,8 +64,8 @@ class Mender {
       lumen = outer_surface(mesh_, result_.voxel_m);
       lumens = whole_lumens(lumen);
     }
-    if (lumens.empty() && left_out_ > 0)
-      throw MeshError("what is closed in the mesh is smaller than 8 mm3; is its unit right? say it with --units");
+    if (lumens.empty()) require_finer_voxel();
+    if (lumens.empty() && left_out_ > 0) throw MeshError(too_small);
     if (lumens.empty())
       throw MeshError(
           "nothing closed comes out of the mesh; expected the wall of a vessel, with openings narrower than itself");
@@ -234,18 +238,54 @@ class Mender {
     return options_.voxel_m;
   }
 
+  /// Throws MeshError if voxels lose what is large enough.
+  void require_finer_voxel() const {
+    if (largest_piece_m3() > crumb_m3)
+      throw MeshError(
+          fmt::format("voxels of {:.2g} mm are too large for these vessels, of which nothing is left; expected a finer "
+                      "--voxel",
+                      result_.voxel_m / mm));
+  }
+
+  double largest_piece_m3() const {
+    double largest = 0;
+    for (const Mesh& piece : components_of(mesh_)) largest = std::max(largest, volume_m3(piece));
+    return largest;
+  }
+
   double chosen_voxel() const {
     const BoundingVolumeHierarchy tree(mesh_);
     const int stride = 1 + static_cast<int>(mesh_.triangles.size() / 20'000);
-    const double narrow = percentile(calibres(mesh_, tree, stride), 0.02);
+    const std::vector<double> wide = calibres(mesh_, tree, stride);
+    const double narrow = percentile(wide, 0.02);
+    // Where most of a mesh is as narrow, it would vanish.
+    const double least = std::min(least_voxel_m, percentile(wide, 0.5) / voxels_across);
     const double affordable = std::sqrt(area_m2(mesh_) / most_wall_voxels);
-    return std::clamp(narrow / voxels_across, std::max(least_voxel_m, affordable), std::max(most_voxel_m, affordable));
+    return std::clamp(narrow / voxels_across, std::max(least, affordable), std::max(most_voxel_m, affordable));
+  }
+
+  /// By finer voxels, if none were asked for and these fill no memory; else it is said.
+  void keep_limbs_apart() {
+    const std::optional<NearLimbs> near = nearest_limbs(mesh_, voxels_between * result_.voxel_m);
+    if (!near) return;
+    const double wanted_m = near->gap_m / voxels_between;
+    if (options_.voxel_m <= 0)
+      result_.voxel_m = std::min(result_.voxel_m,
+                                 std::max({wanted_m, least_between_m, std::sqrt(area_m2(mesh_) / most_wall_voxels)}));
+    if (result_.voxel_m <= near->gap_m) return;  // mostly, that does
+    const bool affordable = wanted_m >= std::sqrt(area_m2(mesh_) / most_cells);
+    note(fmt::format("place where limbs of one vessel, {:.2g} mm apart, may have become one{}", near->gap_m / mm,
+                     affordable ? fmt::format(" (--voxel {:.2g} keeps them apart)", 0.95 * wanted_m / mm) : ""),
+         1, {near->where});
   }
 
   std::vector<Mesh> whole_lumens(const Mesh& mesh) {
     std::vector<Mesh> lumens = components_of(mesh);
     const std::size_t before = lumens.size();
-    std::erase_if(lumens, [](const Mesh& part) { return volume_m3(part) < crumb_m3; });
+    // Voxels take a share of what is narrow: what is no crumb in the mesh stays.
+    const double given_m3 = largest_piece_m3(),
+                 least_m3 = given_m3 < crumb_m3 ? crumb_m3 : std::min(crumb_m3, given_m3 / 2);
+    std::erase_if(lumens, [&](const Mesh& part) { return volume_m3(part) < least_m3; });
     left_out_ = static_cast<int>(before - lumens.size());
     return lumens;
   }

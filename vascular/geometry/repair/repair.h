@@ -31,6 +31,11 @@ struct RepairedMesh {
   double voxel_m = 0;
 };
 
+constexpr double crumb_m3 = 8e-9;  ///< smaller lumens are dropped
+inline constexpr const char* too_small =
+    "what is closed in the mesh is smaller than 8 mm3, too small for instruments; is its unit right? say it with "
+    "--units";
+
 /// Throws MeshError if no closed lumen results.
 RepairedMesh repair_mesh(Mesh mesh, const RepairOptions& options = {});
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 #include <queue>
+#include <unordered_map>
 
 #include "core/base/units.h"
 
@@ -266,6 +267,30 @@ void join(Mesh& mesh, const Opening& a, const Opening& b) {
       band.push_back({f, t, to[(j + 1) % to.size()]}), ++j;
   }
   mesh.triangles.insert(mesh.triangles.end(), band.begin(), band.end());
+}
+
+bool reached_along(const Sheets& sheets, const std::vector<Eigen::Vector3d>& middles, int from, int to,
+                   double limit_m) {
+  std::priority_queue<std::pair<double, int>, std::vector<std::pair<double, int>>, std::greater<>> open;
+  std::unordered_map<int, double> best;
+  open.push({0, from});
+  best[from] = 0;
+  while (!open.empty()) {
+    const auto [d, t] = open.top();
+    open.pop();
+    if (t == to) return true;
+    if (d > best[t]) continue;
+    for (int k = 0; k < 3; ++k) {
+      const int o = sheets.opposite[3 * t + k];
+      if (o < 0) continue;
+      const double next = d + (middles[o / 3] - middles[t]).norm();
+      const auto [entry, fresh] = best.try_emplace(o / 3, next);
+      if (next + (middles[o / 3] - middles[to]).norm() > limit_m || (!fresh && entry->second <= next)) continue;
+      entry->second = next;
+      open.push({next, o / 3});
+    }
+  }
+  return false;
 }
 
 }  // namespace ostium::vascular

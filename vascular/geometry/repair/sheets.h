@@ -17,6 +17,9 @@ struct Sheets {
 /// Where more than two triangles share an edge, the flattest pairs belong together; an odd one stays open.
 Sheets sheets_of(const Mesh& mesh);
 
+/// Whether the way along the surface from one triangle to another is at most so long; `middles`: of all triangles.
+bool reached_along(const Sheets& sheets, const std::vector<Eigen::Vector3d>& middles, int from, int to, double limit_m);
+
 /// False of a soup of loose triangles: `orient` leaves it as it is.
 bool sides_known(const Sheets& sheets);
 
