@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "vascular/geometry/mesh_files/formats.h"
+#include "vascular/geometry/mesh_files/paths.h"
 
 namespace ostium::vascular {
 
@@ -36,7 +37,9 @@ std::optional<std::string> axes_of_words(const std::string& text) {
   return std::nullopt;
 }
 
+/// Empty of what is no file: a pipe would be waited for, and read away from whoever reads it next.
 std::string beginning_of(const std::string& path) {
+  if (!is_file(path)) return "";
   std::string start(looked_at, '\0');
   std::ifstream file(path, std::ios::binary);
   file.read(start.data(), static_cast<std::streamsize>(start.size()));
