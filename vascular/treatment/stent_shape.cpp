@@ -82,6 +82,16 @@ PathFrame PathFrames::go_to(double s_m) {
   return at(s_m);
 }
 
+PathPoint point_at(const LumenMap& map, const VesselPath& path, double s_m, const LumenMoment& moment) {
+  const int last = static_cast<int>(path.cells.size()) - 1;
+  const auto centre = [&](int i) {
+    return map.centre(static_cast<std::size_t>(path.cells[static_cast<std::size_t>(std::clamp(i, 0, last))]), moment);
+  };
+  const VesselPath::Place place = path.at(s_m);
+  const int i = place.index;
+  return {(1 - place.share) * centre(i) + place.share * centre(i + 1), (centre(i + 2) - centre(i - 1)).normalized()};
+}
+
 PathFrame frame_at(const LumenMap& map, const VesselPath& path, double s_m, const LumenMoment& moment) {
   return PathFrames(map, path, s_m, moment).at(s_m);
 }

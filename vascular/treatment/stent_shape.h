@@ -15,6 +15,11 @@ struct PathFrame {
   Eigen::Vector3d centre, along, side, up;
 };
 PathFrame frame_at(const LumenMap& map, const VesselPath& path, double s_m, const LumenMoment& moment);
+/// Its centre and direction alone, which take no way along the path.
+struct PathPoint {
+  Eigen::Vector3d centre, along;
+};
+PathPoint point_at(const LumenMap& map, const VesselPath& path, double s_m, const LumenMoment& moment);
 
 /// The same for many places: goes on from the first of them instead of from the path's beginning. Keeps references.
 class PathFrames {

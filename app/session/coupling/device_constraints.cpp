@@ -14,13 +14,13 @@ namespace {
 
 constexpr double on_guide_m = 3e-3;  // length at the guide's tip that a stent pushes on
 
-/// The path's frame; the path is extended straight beyond its ends.
-vascular::PathFrame frame_of(const CouplingModel& model, const CoupledBalloon& s, double at_m,
+/// The path is extended straight beyond its ends.
+vascular::PathPoint point_of(const CouplingModel& model, const CoupledBalloon& s, double at_m,
                              const vascular::LumenMoment& moment) {
   const vascular::VesselPath& path = model.treatment.paths[static_cast<std::size_t>(s.branch)];
-  vascular::PathFrame frame = frame_at(model.vessel.coronaries->map, path, at_m, moment);
-  frame.centre += (at_m - std::clamp(at_m, path.s_m.front(), path.s_m.back())) * frame.along;
-  return frame;
+  vascular::PathPoint point = point_at(model.vessel.coronaries->map, path, at_m, moment);
+  point.centre += (at_m - std::clamp(at_m, path.s_m.front(), path.s_m.back())) * point.along;
+  return point;
 }
 
 }  // namespace
@@ -32,7 +32,7 @@ double ahead_of_shaft_m(const CouplingModel& model, const core::State& rods, con
   const double near_m = marker_from_tip_m(instrument, 0), far_m = marker_from_tip_m(instrument, 1);
   const auto ahead_m = [&](double from_tip_m) {
     const double at_m = body.seat_m + (near_m + far_m) / 2 - from_tip_m;
-    const vascular::PathFrame there = frame_of(model, s, at_m, moment);
+    const vascular::PathPoint there = point_of(model, s, at_m, moment);
     return (there.centre - point_from_tip(model.rods.rods[t], rods.rods[t], from_tip_m)).dot(there.along);
   };
   return (ahead_m(near_m) + ahead_m(far_m)) / 2;
@@ -52,7 +52,7 @@ std::array<core::Tether, core::max_tethers> tethers_on_shaft(const CouplingModel
   const double ahead_m = ahead_of_shaft_m(model, rods, body, s.balloons[place], moment);
   // Aside, the shaft is not pulled: contact's wall lags the lumen that the balloon opens, and what pulls a shaft
   // towards the one presses it into the other.
-  const Vector3d along = frame_of(model, s.balloons[place], body.seat_m, moment).along;
+  const Vector3d along = point_of(model, s.balloons[place], body.seat_m, moment).along;
   const Vector3d p = point_from_tip(model.rods.rods[t], rods.rods[t], middle_m);
   // What wall and shaft have moved since the body's last step does not pull more than friction holds.
   const double pulls_N = own.bond_N_m * std::fabs(ahead_m);
