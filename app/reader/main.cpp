@@ -1,5 +1,5 @@
-/// `ostium-reader`: reads one file for `ostium` within limits (read_apart.h). Exit codes: 0 read, and a mesh is on
-/// stdout; 2 usage; 3 refused, and the reason is on stdout.
+/// `ostium-reader`: reads one file for `ostium` within limits (read_apart.h). Exit codes: 0 read, and a mesh or its
+/// axes are on stdout; 2 usage; 3 refused, and the reason is on stdout.
 #include <sys/prctl.h>
 #include <sys/resource.h>
 
@@ -12,6 +12,7 @@
 #include "app/reader/surface_bytes.h"
 #include "data/formats/decimal.h"
 #include "data/recording/recording.h"
+#include "vascular/geometry/mesh_files/unit_mark.h"
 
 namespace {
 
@@ -35,14 +36,16 @@ int main(int argc, char** argv) {
   using namespace ostium;
   const std::string kind = argc == 4 ? argv[1] : "";
   const auto seconds = data::whole(argc == 4 ? argv[2] : "");
-  if ((kind != "mesh" && kind != "recording") || !seconds) {
-    std::fputs("usage: ostium-reader mesh|recording SECONDS FILE, as ostium calls it\n", stderr);
+  if ((kind != "mesh" && kind != "axes" && kind != "recording") || !seconds) {
+    std::fputs("usage: ostium-reader mesh|axes|recording SECONDS FILE, as ostium calls it\n", stderr);
     return 2;
   }
   limit_us(*seconds);
   try {
     if (kind == "recording")
       data::read_to_end(argv[3]);
+    else if (kind == "axes")
+      std::fputs(vascular::axes_mark_of(argv[3]).value_or("").c_str(), stdout);
     else if (!app::write_surface(vascular::read_surface(argv[3]), stdout))
       return 1;
     return 0;

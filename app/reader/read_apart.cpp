@@ -136,10 +136,17 @@ std::string read_apart(const ReaderCall& call, const std::string& file) {
                                                     WEXITSTATUS(status), call.cure));
 }
 
+namespace {
+
+constexpr const char* mesh_cure = "expected a whole file: export it again, best as .stl, .ply or .vtp";
+
+}  // namespace
+
+std::string read_axes_apart(const std::string& file) { return read_apart({"axes", mesh_cure}, file); }
+
 vascular::RawSurface read_surface_apart(const std::string& file) {
   try {
-    return surface_of(read_apart({"mesh", "expected a whole file: export it again, best as .stl, .ply or .vtp"}, file),
-                      file);
+    return surface_of(read_apart({"mesh", mesh_cure}, file), file);
   } catch (const data::LoadError& error) {
     throw vascular::MeshError(error.what());
   }

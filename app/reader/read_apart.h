@@ -18,7 +18,7 @@ struct ReaderLimits {
 
 /// How a file is asked for: `ostium-reader KIND SECONDS FILE`.
 struct ReaderCall {
-  std::string kind;  ///< "mesh" or "recording"
+  std::string kind;  ///< "mesh", "axes" or "recording"
   std::string cure;  ///< of a file that the reader cannot cope with, for the message
   ReaderLimits limits = {};
   std::string program = {};  ///< empty: the one beside the running program
@@ -33,6 +33,9 @@ std::string read_apart(const ReaderCall& call, const std::string& file);
 
 /// As vascular::read_surface, apart. Throws MeshError.
 vascular::RawSurface read_surface_apart(const std::string& file);
+
+/// As vascular::axes_mark_of, apart: "LPS", "RAS" or empty. Throws data::LoadError.
+std::string read_axes_apart(const std::string& file);
 
 /// Reads the recording apart, from beginning to end; what is read after that is known to be whole. Throws
 /// data::LoadError.

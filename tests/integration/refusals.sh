@@ -69,10 +69,10 @@ for name in 0 1 2 3 01; do echo >"frames/lumen-$name.obj"; done
 refused "has the number of" import frames --sequence -o none
 
 # A step that no tool of the script can do was done at once, in a run that succeeded.
-script() { # script TOOL STEP: a script of one wire, called TOOL
+script() { # script TOOL STEP [INSTRUMENT]: a script of one tool, called TOOL
   cat >mine.json <<END
 { "schema": "ostium-script/1", "name": "mine", "title": "a wire",
-  "tools": [{ "name": "$1", "instrument": "rosen" }],
+  "tools": [{ "name": "$1", "instrument": "${3:-rosen}" }],
   "steps": [$2] }
 END
 }
@@ -82,6 +82,9 @@ script wire '{ "do": "deflate" }'
 refused "mine.json:3: deflate: no tool has a balloon" run rca-mid-focal --script mine.json
 script wire '{ "do": "inject", "rate_mL_s": 3, "volume_mL": 5 }'
 refused "mine.json:3: inject: no tool is a catheter" run rca-mid-focal --script mine.json
+# Nor did a balloon have to be in the body.
+script balloon '{ "do": "inflate", "gauge_atm": 3, "over_s": 1, "timeout_s": 2 }' balloon-20x10
+expect 1 "waiting for gauge_atm 3 (now no balloon is in the body)" "$ostium" run rca-mid-focal --script mine.json
 script person '{ "do": "wait", "until": [{ "seconds": 1 }] }'
 refused "mine.json:2: a tool is called person" run rca-mid-focal --script mine.json
 

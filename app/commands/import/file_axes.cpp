@@ -5,9 +5,9 @@
 #include <Eigen/LU>
 #include <cmath>
 
+#include "app/reader/read_apart.h"
 #include "data/catalogue/case/markups_file.h"
 #include "data/formats/load_error.h"
-#include "vascular/geometry/mesh_files/unit_mark.h"
 
 namespace ostium::app {
 
@@ -24,7 +24,7 @@ Eigen::Matrix3d axes_of(const std::string& letters) {
 }
 
 std::string axes_said_by(const std::string& file) {
-  return data::is_markups_file(file) ? data::load_markups(file).axes : vascular::axes_mark_of(file).value_or("");
+  return data::is_markups_file(file) ? data::load_markups(file).axes : read_axes_apart(file);
 }
 
 FileAxes file_axes(const std::vector<std::string>& files, const std::string& said) {

@@ -1,5 +1,6 @@
 #pragma once
 /// Handling errors with balloons and stents. When no device is in the body, the record of the last one is cleared.
+#include <algorithm>
 #include <cmath>
 #include <tuple>
 
@@ -8,6 +9,26 @@
 #include "app/session/handling/session_event.h"
 
 namespace ostium::app {
+
+/// Beyond the guide: a shaft's own tip finds its way into the wall.
+class DeviceWithoutWire {
+ public:
+  void look(const HandlingMap&, const HandlingScene& x, const EventSink& say) {
+    const HandledTool& own = x.tool(x.device);
+    const double advanced_m = inserted_m_ < 0 ? 0 : std::max(0.0, own.inserted_m - inserted_m_);
+    inserted_m_ = own.inserted_m;
+    const bool in_guide = x.catheter >= 0 && own.inserted_m <= x.tool(x.catheter).inserted_m;
+    const double leads_m = x.wire_tip_m - own.inserted_m;
+    alone_m_ = in_guide || leads_m > 0 ? 0 : alone_m_ + advanced_m;
+    if (episode_.begins(alone_m_ > alone_m, x.time_s))
+      say(data::EventCode::device_without_wire, x.device, 1e3 * leads_m);
+  }
+
+ private:
+  static constexpr double alone_m = 5e-3;
+  double alone_m_ = 0, inserted_m_ = -1;  ///< < 0: not looked at yet
+  Episode episode_;
+};
 
 class OpenBalloonDragged {
  public:
@@ -55,6 +76,6 @@ class BalloonBeyondStent {
   Episode episode_;
 };
 
-using DeviceErrors = std::tuple<OpenBalloonDragged, LongInflation, BalloonBeyondStent>;
+using DeviceErrors = std::tuple<DeviceWithoutWire, OpenBalloonDragged, LongInflation, BalloonBeyondStent>;
 
 }  // namespace ostium::app

@@ -183,7 +183,7 @@ void see(const SessionModel& model, const HandlingMap& map, const SessionInputs&
   x.gauge_atm = inputs.delivery.gauge_Pa / 101325;
   x.tools.resize(model.tools.size());
   x.catheter = x.thick_wire = x.thin_wire = x.device = -1;
-  x.thin_wires = 0;
+  x.thin_wires = 0, x.wire_tip_m = 0;
   for (int t = 0; t < static_cast<int>(model.tools.size()); ++t) {
     const auto i = static_cast<std::size_t>(t);
     HandledTool& tool = x.tools[i];
@@ -206,6 +206,7 @@ void see(const SessionModel& model, const HandlingMap& map, const SessionInputs&
       continue;
     }
     ++x.thin_wires;
+    x.wire_tip_m = std::max(x.wire_tip_m, tool.inserted_m);
     if (x.thin_wire < 0 || tool.feed_m_s != 0 || tool.turn_rad_s != 0) x.thin_wire = t;  // of several, the one in hand
   }
   const CouplingState& b = state.coupling;

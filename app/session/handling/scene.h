@@ -50,6 +50,7 @@ struct HandlingScene {
   std::vector<HandledTool> tools;
   int catheter = -1, thick_wire = -1, thin_wire = -1, device = -1;  ///< tools in the body; -1: none
   int thin_wires = 0;                                               ///< in the body; thin_wire is the one in hand
+  double wire_tip_m = 0;                                            ///< how far the farthest of them is inserted
   int catheter_cell = -1, wire_cell = -1;                           ///< cells of the arteries at their tips
   bool thin_tip_is_seen = false;  ///< beam on, and the thin wire's tip within the field
   double twist_rad = 0;           ///< of the catheter, from the introducer to its tip

@@ -55,10 +55,15 @@ void screw_inflation_devices(const Step& step, const SessionState& session, doub
   }
 }
 
+/// As is_about, without an inflation device that has no balloon in the body.
+bool inflates(const Step& step, const SessionState& session, int nth) {
+  return is_about(step, session, nth) && balloon_in_body(session.coupling, session.treatment, {}, nth);
+}
+
 bool all_show(const Step& step, const ConditionEvaluator& e) {
   bool any = false;
   for (int nth = 0; nth < vascular::most_balloons; ++nth)
-    if (is_about(step, e.session, nth)) {
+    if (inflates(step, e.session, nth)) {
       if (e.state.gauge_Pa[nth] != step.gauge_Pa) return false;
       any = true;
     }
@@ -153,13 +158,14 @@ constexpr std::array<Handling, data::action_kinds> handling_of = [] {
 
 const Handling& handling(const data::ScriptStep& step) { return handling_of[static_cast<std::size_t>(step.action)]; }
 
-/// "12", "12 and 8", "its balloon is not in the body".
+/// "12", "12 and 8", "no balloon is in the body".
 std::string gauges(const Step& step, const ConditionEvaluator& e) {
   std::string out;
   for (int nth = 0; nth < vascular::most_balloons; ++nth)
-    if (is_about(step, e.session, nth))
+    if (inflates(step, e.session, nth))
       out += fmt::format("{}{:.3g}", out.empty() ? "" : " and ", e.state.gauge_Pa[nth] / vacuum_Pa);
-  return out.empty() ? "its balloon is not in the body" : out;
+  if (!out.empty()) return out;
+  return step.tools.empty() ? "no balloon is in the body" : "its balloon is not in the body";
 }
 
 }  // namespace

@@ -215,6 +215,28 @@ std::shared_ptr<const Vessel> vessel_in_place() {
   return made;
 }
 
+TEST(Handling, ABalloonFollowsAWireBeyondTheGuide) {
+  Played p;
+  DeviceErrors errors;
+  p.scene.device = balloon, p.scene.catheter = guide;
+  p[guide].inserted_m = 1, p.scene.wire_tip_m = 1.05;
+  p[balloon].inserted_m = 0.9;
+  p.play(errors, 1, [&](int) { p.feed(balloon, 1.5e-3); });
+  EXPECT_TRUE(p.events.empty()) << "to the wire's tip, 50 mm beyond the guide";
+  p.play(errors, 0.04, [&](int) { p.feed(balloon, 1e-3); });
+  EXPECT_TRUE(p.events.empty());
+  p.play(errors, 0.2, [&](int) { p.feed(balloon, 1e-3); });
+  EXPECT_EQ(p.took(data::EventCode::device_without_wire), 1);
+
+  DeviceErrors anew;
+  p.scene.wire_tip_m = 0, p[balloon].inserted_m = 0.9;
+  p.play(anew, 0.1, [&](int) { p.feed(balloon, 10e-3); });
+  EXPECT_TRUE(p.events.empty()) << "in the guide it needs no wire";
+  p.play(anew, 0.1, [&](int) { p.feed(balloon, -10e-3); });
+  p.play(anew, 0.3, [&](int) { p.feed(balloon, 10e-3); });
+  EXPECT_EQ(p.took(data::EventCode::device_without_wire), 1);
+}
+
 TEST(Handling, BalloonsAreEmptyAsTheyMoveAndNotHeldForLong) {
   ScriptedRun run(tools_in_place(), vessel_in_place());
   Played p;

@@ -178,5 +178,40 @@ TEST(Centreline, OfALoopIsCutOpenAndSaysWhere) {
   }
 }
 
+/// A tube from `from` to `to`, with lids.
+Mesh piece(double radius, const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
+  Mesh mesh = test::tube(radius, (to - from).norm(), 24, 80);
+  const Eigen::Quaterniond R = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), to - from);
+  for (Eigen::Vector3d& p : mesh.vertices) p = from + R * p;
+  return mesh;
+}
+
+/// As modelling programs leave them: the wall of each piece goes on within the others, and is none there.
+TEST(Centreline, OfPiecesThatCrossIsThatOfTheirUnion) {
+  Mesh mesh = piece(2e-3, {0, 0, 0}, {0, 0, 40e-3});
+  append(mesh, piece(1.5e-3, {0, 0, 20e-3}, {20e-3, 1e-3, 45e-3}));
+  append(mesh, piece(1.2e-3, {0, 0, 30e-3}, {-20e-3, 0, 50e-3}));
+  const CentrelineResult found = find_centrelines(mesh);
+  ASSERT_EQ(found.tree.branches.size(), 3u);
+  EXPECT_TRUE(found.cuts.empty());
+  for (const TreeSphere& sphere : found.tree.branches[0].spheres)
+    if (sphere.p.z() < 15e-3) {
+      EXPECT_NEAR(sphere.radius_m, 2e-3, 0.1e-3);
+      EXPECT_LT(sphere.p.head<2>().norm(), 0.15e-3);
+    }
+}
+
+TEST(Centreline, OfALoopOfPiecesThatCrossIsCutOpenAndSaysWhere) {
+  const Eigen::Vector3d corners[] = {{0, 0, 0}, {30e-3, 0, 1e-3}, {15e-3, 26e-3, 2e-3}};
+  Mesh mesh = piece(2e-3, {-25e-3, -3e-3, 0}, corners[0]);
+  for (int i = 0; i < 3; ++i) {
+    const Eigen::Vector3d &a = corners[i], &b = corners[(i + 1) % 3], past = 1e-3 * (b - a).normalized();
+    append(mesh, piece(1.5e-3, a - past, b + past));
+  }
+  const CentrelineResult found = find_centrelines(mesh);
+  EXPECT_EQ(found.cuts.size(), 1u);
+  EXPECT_EQ(found.tree.branches.size(), 2u);
+}
+
 }  // namespace
 }  // namespace ostium::vascular

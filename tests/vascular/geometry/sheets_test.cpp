@@ -8,7 +8,7 @@
 #include "core/base/units.h"
 #include "tests/vascular/geometry/shapes.h"
 #include "vascular/geometry/mesh/surface_check.h"
-#include "vascular/geometry/remesh/winding.h"
+#include "vascular/geometry/mesh/winding.h"
 #include "vascular/geometry/repair/double_wall.h"
 
 namespace ostium::vascular {

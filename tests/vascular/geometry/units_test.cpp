@@ -126,6 +126,31 @@ TEST(LengthUnits, AxesOfVTKAreInItsTitle) {
   std::remove(path.c_str());
 }
 
+/// A text is its bytes, the last of them zero; 3D Slicer writes it compressed and appended unless told otherwise.
+TEST(LengthUnits, AxesOfVTKsXMLAreAField) {
+  const std::string path = testing::TempDir() + "field_" + std::to_string(getpid()) + ".vtp";
+  const auto said = [&](const std::string& field, const std::string& attributes = "", const std::string& after = "") {
+    std::ofstream(path) << "<VTKFile type=\"PolyData\" byte_order=\"LittleEndian\" header_type=\"UInt32\"" << attributes
+                        << "><PolyData><FieldData>" << field << "</FieldData><Piece NumberOfPoints=\"0\"/></PolyData>"
+                        << after << "</VTKFile>";
+    return axes_mark_of(path);
+  };
+  EXPECT_EQ(said(R"(<Array type="String" Name="SPACE" NumberOfTuples="1" format="ascii">76 80 83 0</Array>)"), "LPS");
+  EXPECT_EQ(said(R"(<Array type="String" Name="SPACE" NumberOfTuples="1" format="binary">BAAAAFJBUwA=</Array>)"),
+            "RAS");
+  // "RAS" and a zero by zlib: one block of 32768 bytes, the last of 4, of 12 compressed; in base64
+  EXPECT_EQ(said(R"(<Array type="String" Name="SPACE" NumberOfTuples="1" format="appended" offset="0"/>)",
+                 " compressor=\"vtkZLibDataCompressor\"",
+                 R"(<AppendedData encoding="base64">_AQAAAACAAAAEAAAADAAAAA==eJwLcgxmAAACtQDn</AppendedData>)"),
+            "RAS");
+  EXPECT_EQ(said(R"(<Array type="String" Name="SPACE" NumberOfTuples="1" format="ascii">88 89 90 0</Array>)"),
+            std::nullopt);
+  EXPECT_EQ(said(""), std::nullopt);
+  EXPECT_THROW(said(R"(<Array type="String" Name="SPACE" NumberOfTuples="1" format="appended" offset="0"/>)"),
+               MeshError);
+  std::remove(path.c_str());
+}
+
 INSTANTIATE_TEST_SUITE_P(LengthUnits, UnitMark, testing::Values(".ply", ".obj", ".stl"));
 
 }  // namespace

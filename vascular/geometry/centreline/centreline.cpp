@@ -12,6 +12,7 @@
 #include "vascular/geometry/centreline/line_fit.h"
 #include "vascular/geometry/centreline/voxels.h"
 #include "vascular/geometry/mesh/patient_frame.h"
+#include "vascular/geometry/mesh/winding.h"
 
 namespace ostium::vascular {
 
@@ -220,12 +221,19 @@ int widest_end(const Voxels& voxels, bool loops) {
   return end;
 }
 
-/// By corners less edges and triangles of one closed piece, which are 2 less for each.
-bool has_loops(const Mesh& mesh) {
+/// Whether the mesh is one closed piece without a loop: by its corners less edges and triangles, which are 2 more for
+/// each piece, and 2 less for each loop of one. Pieces that cross may make a loop together.
+bool is_plain(const Mesh& mesh) {
   std::vector<bool> used(mesh.vertices.size());
   for (const auto& t : mesh.triangles)
     for (int v : t) used[static_cast<std::size_t>(v)] = true;
-  return 2 * std::count(used.begin(), used.end(), true) - static_cast<long>(mesh.triangles.size()) < 4;
+  return 2 * std::count(used.begin(), used.end(), true) - static_cast<long>(mesh.triangles.size()) == 4;
+}
+
+/// Where pieces cross, the wall of one goes on within another, and is no wall there.
+Mesh outer_wall(const Mesh& mesh) {
+  constexpr double beside_m = 5e-6;  // the wall on either side of which inside and outside are told
+  return {mesh.vertices, bordering_triangles(mesh, WindingNumber(mesh), beside_m)};
 }
 
 /// Two lines end at one cut.
@@ -245,11 +253,12 @@ bool runs_through(const Skeleton& skeleton, const Voxels& voxels, int root) {
 }  // namespace
 
 CentrelineResult find_centrelines(const Mesh& mesh, const CentrelineOptions& options) {
-  const BoundingVolumeHierarchy wall(mesh);
+  const bool loops = !is_plain(mesh);  // there may be some
+  const Mesh outer = loops ? outer_wall(mesh) : mesh;
+  const BoundingVolumeHierarchy wall(outer);
   const Voxels voxels(mesh, wall, options.most_voxels);
   if (voxels.count() == 0)
     throw MeshError("the mesh has no inside; expected a closed surface (ostium check says where not)");
-  const bool loops = has_loops(mesh);
   const int root = options.start ? voxels.nearest(*options.start) : widest_end(voxels, loops);
   Skeleton skeleton(voxels, root);
   for (const Eigen::Vector3d& end : options.ends) {

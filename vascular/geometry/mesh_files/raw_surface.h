@@ -29,5 +29,7 @@ RawSurface read_assimp(const std::string& path);
 RawSurface read_off(const std::string& path);
 /// VTK's files, XML or legacy: their first bytes decide, not their ending. Throws MeshError.
 RawSurface read_vtk(const std::string& path);
+/// The text that stands as `name` beside the surface of an XML file, or nothing. Throws MeshError.
+std::string read_vtk_field(const std::string& path, const char* name);
 
 }  // namespace ostium::vascular

@@ -1,12 +1,14 @@
 #include "vascular/geometry/mesh_files/unit_mark.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <vector>
 
 #include "vascular/geometry/mesh_files/formats.h"
 #include "vascular/geometry/mesh_files/paths.h"
+#include "vascular/geometry/mesh_files/raw_surface.h"
 
 namespace ostium::vascular {
 
@@ -28,12 +30,24 @@ std::optional<LengthUnit> unit_of_words(std::istringstream words) {
   return std::nullopt;
 }
 
+constexpr const char* slicer_axes[] = {"LPS", "RAS"};
+
 /// Of the words "SPACE=LPS".
 std::optional<std::string> axes_of_words(const std::string& text) {
   std::istringstream words(text);
   for (std::string word; words >> word;)
-    for (const char* axes : {"LPS", "RAS"})
+    for (const char* axes : slicer_axes)
       if (word == std::string("SPACE=") + axes) return axes;
+  return std::nullopt;
+}
+
+/// Of the field SPACE, which may stand anywhere in the file.
+std::optional<std::string> axes_of_xml(const std::string& path) {
+  std::error_code unseen;
+  if (!is_file(path) || std::filesystem::file_size(path, unseen) > longest_mesh_file) return std::nullopt;
+  const std::string said = read_vtk_field(path, "SPACE");
+  for (const char* axes : slicer_axes)
+    if (said == axes) return axes;
   return std::nullopt;
 }
 
@@ -88,7 +102,8 @@ std::optional<std::string> axes_mark_of(const std::string& path) {
     const std::string header = start.substr(0, std::min(start.find_first_of(std::string("\0\n", 2)), looked_at));
     return axes_of_words(start.starts_with("solid") ? header : header.substr(0, stl_header));
   }
-  if (ending == ".vtk") {
+  if (ending == ".vtp" || ending == ".vtu" || ending == ".vtk") {  // XML or not, whatever the ending
+    if (!start.starts_with('#')) return axes_of_xml(path);
     const std::size_t title = start.find('\n') + 1;
     return axes_of_words(start.substr(title, start.find('\n', title) - title));
   }

@@ -15,8 +15,9 @@ std::string with_unit_mark(std::string bytes, const std::string& ending, LengthU
 /// a binary STL begins; "units" and a colon pass too. None if there is no such line, or if the file cannot be read.
 std::optional<LengthUnit> unit_mark_of(const std::string& path);
 
-/// Where a file's x, y, z point to by its header or comments: "LPS" or "RAS" (STL, PLY, OBJ, and .vtk's title). None if
-/// nothing is said there, or if the file cannot be read.
+/// Where a file's x, y, z point to by its header or comments (STL, PLY, OBJ), .vtk's title or the field "SPACE" of .vtp
+/// and .vtu: "LPS" or "RAS". None if nothing is said there, or if the file cannot be read. Throws MeshError of a .vtp
+/// or .vtu that is damaged, and is for a process of its own (app/reader), as read_surface is.
 std::optional<std::string> axes_mark_of(const std::string& path);
 
 }  // namespace ostium::vascular

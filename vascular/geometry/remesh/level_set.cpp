@@ -6,35 +6,12 @@
 #include <Eigen/Geometry>
 #include <array>
 
+#include "vascular/geometry/mesh/winding.h"
 #include "vascular/geometry/remesh/openvdb_module.h"
-#include "vascular/geometry/remesh/winding.h"
 
 namespace ostium::vascular {
 
 namespace {
-
-constexpr std::size_t most_sampled = 400'000;
-
-/// Triangles that border on the outside; those inside another piece would spoil distances.
-std::vector<std::array<int, 3>> bordering(const Mesh& mesh, const WindingNumber& winding, double step_m) {
-  if (mesh.triangles.size() > most_sampled) return mesh.triangles;
-  std::vector<std::array<int, 3>> kept;
-  for (const auto& t : mesh.triangles) {
-    const Eigen::Vector3d &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
-    const Eigen::Vector3d area = (b - a).cross(c - a);
-    if (area.isZero(0)) continue;
-    const Eigen::Vector3d out = step_m * area.normalized();
-    bool borders = false;
-    for (const Eigen::Vector3d& w :
-         {Eigen::Vector3d(1, 1, 1), Eigen::Vector3d(8, 1, 1), Eigen::Vector3d(1, 8, 1), Eigen::Vector3d(1, 1, 8)}) {
-      const Eigen::Vector3d p = (w[0] * a + w[1] * b + w[2] * c) / w.sum();
-      borders = winding.inside(p - out) != winding.inside(p + out);
-      if (borders) break;
-    }
-    if (borders) kept.push_back(t);
-  }
-  return kept;
-}
 
 /// The function of the module, which stays loaded.
 Contour* contour_of_module() {
@@ -54,14 +31,10 @@ Contour* contour_of_module() {
 
 }  // namespace
 
-std::vector<std::array<int, 3>> bordering_triangles(const Mesh& closed, double step_m) {
-  return bordering(closed, WindingNumber(closed), step_m);
-}
-
 Mesh outer_surface(const Mesh& closed, double voxel_m) {
   Contour* const contour = contour_of_module();
   const WindingNumber winding(closed);
-  const std::vector<std::array<int, 3>> wall = bordering(closed, winding, voxel_m / 20);
+  const std::vector<std::array<int, 3>> wall = bordering_triangles(closed, winding, voxel_m / 20);
   Eigen::AlignedBox3d box;
   for (const Eigen::Vector3d& p : closed.vertices) box.extend(p);
   // Offset from the round numbers at which people place vertices and flat ends.

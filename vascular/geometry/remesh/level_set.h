@@ -9,7 +9,4 @@ namespace ostium::vascular {
 /// features narrower than two voxels may be lost.
 Mesh outer_surface(const Mesh& closed, double voxel_m);
 
-/// Triangles that border on the outside, without those inside another piece.
-std::vector<std::array<int, 3>> bordering_triangles(const Mesh& closed, double step_m);
-
 }  // namespace ostium::vascular

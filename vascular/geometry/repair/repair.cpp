@@ -11,6 +11,7 @@
 #include "core/base/units.h"
 #include "vascular/geometry/mesh/bounding_volume_hierarchy.h"
 #include "vascular/geometry/mesh/surface_check.h"
+#include "vascular/geometry/mesh/winding.h"
 #include "vascular/geometry/remesh/level_set.h"
 #include "vascular/geometry/remesh/smooth.h"
 #include "vascular/geometry/repair/bridges.h"
@@ -71,7 +72,7 @@ class Mender {
           "nothing closed comes out of the mesh; expected the wall of a vessel, with openings narrower than itself");
     if (left_out_ > 0) note("crumb left out (smaller than 8 mm3)", left_out_, {});
     // Only the part of the mesh that borders on the outside.
-    const Mesh outside{mesh_.vertices, bordering_triangles(mesh_, result_.voxel_m / 20)};
+    const Mesh outside{mesh_.vertices, bordering_triangles(mesh_, WindingNumber(mesh_), result_.voxel_m / 20)};
     const BoundingVolumeHierarchy wall(outside);
     for (Mesh& part : lumens) {
       close_holes(part);

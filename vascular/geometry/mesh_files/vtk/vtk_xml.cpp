@@ -37,6 +37,19 @@ class VtkXml {
     return surface;
   }
 
+  /// Of the texts that stand beside the surface: bytes, the last of them zero.
+  std::string field_text(const char* name) const {
+    const pugi::xml_node array = file_.first_child().child("FieldData").find_child_by_attribute("Array", "Name", name);
+    if (!array) return "";
+    const std::string_view format = array.attribute("format").value();
+    std::string text;
+    if (format == "binary" || format == "appended")
+      text = bytes_of(array, fmt::format("{}: FieldData \"{}\"", path_, name), format);
+    else
+      for (const std::int64_t code : numbers<std::int64_t>(array, "FieldData")) text += static_cast<char>(code);
+    return text.substr(0, text.find('\0'));
+  }
+
  private:
   /// Appended data may be raw bytes, which are no XML: the part before them is closed and parsed, they are kept apart.
   void parse(const std::string& text) {
@@ -179,5 +192,9 @@ class VtkXml {
 }  // namespace
 
 RawSurface read_vtk_xml(const std::string& path, const std::string& text) { return VtkXml(path, text).read(); }
+
+std::string vtk_xml_field(const std::string& path, const std::string& text, const char* name) {
+  return VtkXml(path, text).field_text(name);
+}
 
 }  // namespace ostium::vascular

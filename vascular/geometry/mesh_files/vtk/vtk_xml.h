@@ -9,4 +9,7 @@ namespace ostium::vascular {
 /// `path` is for messages, `text` the whole file. Throws MeshError.
 RawSurface read_vtk_xml(const std::string& path, const std::string& text);
 
+/// The text that stands as `name` beside the surface (its FieldData), or nothing. Throws MeshError.
+std::string vtk_xml_field(const std::string& path, const std::string& text, const char* name);
+
 }  // namespace ostium::vascular

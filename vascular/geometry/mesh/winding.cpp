@@ -1,4 +1,4 @@
-#include "vascular/geometry/remesh/winding.h"
+#include "vascular/geometry/mesh/winding.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -13,6 +13,7 @@ namespace ostium::vascular {
 namespace {
 constexpr int leaf_size = 8;
 constexpr double far_enough = 2;  // in reaches: error about 1 %
+constexpr std::size_t most_sampled = 400'000;
 }  // namespace
 
 WindingNumber::WindingNumber(const Mesh& mesh) : mesh_(mesh), order_(mesh.triangles.size()) {
@@ -81,6 +82,26 @@ double WindingNumber::at(const Eigen::Vector3d& p) const {
     }
   }
   return sum;
+}
+
+std::vector<std::array<int, 3>> bordering_triangles(const Mesh& mesh, const WindingNumber& winding, double step_m) {
+  if (mesh.triangles.size() > most_sampled) return mesh.triangles;
+  std::vector<std::array<int, 3>> kept;
+  for (const auto& t : mesh.triangles) {
+    const Eigen::Vector3d &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
+    const Eigen::Vector3d area = (b - a).cross(c - a);
+    if (area.isZero(0)) continue;
+    const Eigen::Vector3d out = step_m * area.normalized();
+    bool borders = false;
+    for (const Eigen::Vector3d& w :
+         {Eigen::Vector3d(1, 1, 1), Eigen::Vector3d(8, 1, 1), Eigen::Vector3d(1, 8, 1), Eigen::Vector3d(1, 1, 8)}) {
+      const Eigen::Vector3d p = (w[0] * a + w[1] * b + w[2] * c) / w.sum();
+      borders = winding.inside(p - out) != winding.inside(p + out);
+      if (borders) break;
+    }
+    if (borders) kept.push_back(t);
+  }
+  return kept;
 }
 
 }  // namespace ostium::vascular

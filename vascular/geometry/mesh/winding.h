@@ -28,4 +28,8 @@ class WindingNumber {
   std::vector<Node> nodes_;
 };
 
+/// Triangles with inside on one of their sides and outside on the other, `step_m` away from them: without those of a
+/// piece that lie in another one, which would spoil distances to the wall.
+std::vector<std::array<int, 3>> bordering_triangles(const Mesh& closed, const WindingNumber& winding, double step_m);
+
 }  // namespace ostium::vascular
