@@ -11,7 +11,7 @@
 namespace ostium::vascular {
 
 namespace {
-constexpr int leaf_size = 8;
+constexpr int triangles_a_leaf = 8;
 constexpr double far_enough = 2;  // in reaches: error about 1 %
 constexpr std::size_t most_sampled = 400'000;
 }  // namespace
@@ -42,7 +42,7 @@ int WindingNumber::build(int first, int last) {
     for (int v : mesh_.triangles[order_[i]])
       node.reach = std::max(node.reach, (mesh_.vertices[v] - node.middle).norm());
   nodes_.push_back(node);
-  if (last - first <= leaf_size) return self;
+  if (last - first <= triangles_a_leaf) return self;
   int axis = 0;
   box.sizes().maxCoeff(&axis);
   const int half = (first + last) / 2;
