@@ -173,7 +173,7 @@ vascular::TreatmentReport Bedside::step(double dt_s) {
 }
 
 InflationRecord inflate(Bedside& bed, const Plan& plan, int balloon, double gauge_Pa, double hold_s) {
-  constexpr double pump_Pa_s = 2 * atm, vacuum_s = 15;
+  constexpr double pump_Pa_s = 2 * atm, most_vacuum_s = 15;
   const vascular::BalloonModel& model = bed.treatment.balloons[balloon];
   InflationRecord record{.device = model.name};
   bed.device.balloons[0].balloon = balloon, bed.device.balloons[0].branch = plan.branch;
@@ -203,7 +203,7 @@ InflationRecord inflate(Bedside& bed, const Plan& plan, int balloon, double gaug
     note(bed.step());
   }
   bed.device.balloons[0].gauge_Pa = -atm;
-  for (double t = 0; t < vacuum_s; t += 1e-3) {
+  for (double t = 0; t < most_vacuum_s && !is_empty(model, bed.state.balloons[0]); t += 1e-3) {
     bed.step();
     record.ST_mV = std::max(record.ST_mV, ST_shift_mV(bed.physiology.ischaemia, bed.blood.ischaemia));
     if (record.deflated_s == 0 && bed.state.balloons[0].volume_m3 - folded_m3 < 0.1 * (full_m3 - folded_m3))

@@ -338,4 +338,9 @@ BalloonReport step(const BalloonModel& m, const PlaqueModel& plaque, const Ballo
   return report;
 }
 
+bool is_empty(const BalloonModel& model, const BalloonState& state) {
+  const double most = *std::max_element(state.radius_m.begin(), state.radius_m.end());
+  return state.pressure_Pa < 0.2 * units::atm && most < 1.15 * std::max(model.refolded_m, model.folded_m);
+}
+
 }  // namespace ostium::vascular

@@ -156,4 +156,7 @@ Eigen::Vector2d aside_at_m(const BalloonModel& model, const BalloonState& state,
 /// Stiffness of its skin, E t, which the chart gives: a tube that grows by dr under dp has r^2 dp / dr.
 double skin_N_m(const BalloonModel& model);
 
+/// Whether the balloon has refolded.
+bool is_empty(const BalloonModel& model, const BalloonState& state);
+
 }  // namespace ostium::vascular

@@ -110,12 +110,6 @@ BalloonInBody balloon_in_body(const CouplingState& state, const vascular::Treatm
   return {&state.balloons[place], &treatment.balloons[place], nth == 0 ? inputs.gauge_Pa : inputs.second_gauge_Pa};
 }
 
-bool is_empty(const vascular::BalloonModel& model, const vascular::BalloonState& state) {
-  double most = 0;
-  for (double r : state.radius_m) most = std::max(most, r);
-  return state.pressure_Pa < 0.2 * 101325 && most < 1.15 * std::max(model.refolded_m, model.folded_m);
-}
-
 void look(const CouplingModel& model, const core::State& rods, const vascular::TreatmentState& treatment,
           const core::StepReport& report, const vascular::LumenMoment& moment, CouplingScratch& x, CouplingState& s) {
   x.locator.set_moment(moment);

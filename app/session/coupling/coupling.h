@@ -154,9 +154,6 @@ BalloonInBody balloon_in_body(const CouplingState& state, const vascular::Treatm
 /// The place of a tool's balloon; -1: it is not in the body.
 int place_of(const CouplingState& state, int tool);
 
-/// Whether the balloon has refolded.
-bool is_empty(const vascular::BalloonModel& model, const vascular::BalloonState& state);
-
 /// The constant parts of a session that coupling needs.
 struct CouplingModel {
   const Vessel& vessel;

@@ -210,7 +210,9 @@ TEST(Centreline, OfALoopOfPiecesThatCrossIsCutOpenAndSaysWhere) {
   }
   const CentrelineResult found = find_centrelines(mesh);
   EXPECT_EQ(found.cuts.size(), 1u);
-  EXPECT_EQ(found.tree.branches.size(), 2u);
+  ASSERT_GE(found.tree.branches.size(), 2u);  // beside these, short ones into the corners where lids stand out
+  EXPECT_NEAR(found.tree.branches[0].spheres.back().s_m + found.tree.branches[1].spheres.back().s_m, 25e-3 + 90e-3,
+              8e-3);
 }
 
 }  // namespace

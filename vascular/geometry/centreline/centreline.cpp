@@ -7,7 +7,6 @@
 #include <limits>
 #include <queue>
 #include <unordered_map>
-#include <unordered_set>
 
 #include "vascular/geometry/centreline/line_fit.h"
 #include "vascular/geometry/centreline/voxels.h"
@@ -21,7 +20,7 @@ namespace {
 constexpr double unreached = std::numeric_limits<double>::infinity();
 constexpr double reach = 2;            // a path covers what lies within this many radii
 constexpr double cut_reach = 4;        // radii from its end in which a line looks for what was cut off from it
-constexpr double shortest_loop = 8;    // radii around one
+constexpr double shortest_loop = 8;    // radii by which the way round one is longer
 constexpr double widest_from_lid = 3;  // radii: a widest place this near to a lid has no strand of its own to it
 
 struct Paths {
@@ -127,15 +126,23 @@ class Skeleton {
       for (int w : way) joins[w] = joins[v];
       return joins[v];
     };
-    std::unordered_set<int> seen = {end};
-    std::vector<int> open = {end};
+    // Cheapest ways within reach of the end: where there is no loop, the way round by the root is hardly longer.
+    std::unordered_map<int, double> direct_m = {{end, 0.0}};
+    std::priority_queue<std::pair<double, int>, std::vector<std::pair<double, int>>, std::greater<>> open;
+    open.push({0, end});
     while (!open.empty()) {
-      const int v = open.back(), at = joins_at(v);
-      open.pop_back();
+      const auto [length_m, v] = open.top();
+      open.pop();
+      if (length_m > direct_m[v]) continue;
+      const int at = joins_at(v);
       const double round_m = paths_.length_m[end] + paths_.length_m[v] - 2 * paths_.length_m[at];
-      if (round_m > shortest_loop * std::max(radius, voxels_.to_wall_m(at))) return true;
-      voxels_.neighbours(v, [&](int next, double) {
-        if (away_m(next, end) < cut_reach * radius && seen.insert(next).second) open.push_back(next);
+      if (round_m - length_m > shortest_loop * std::max(radius, voxels_.to_wall_m(at))) return true;
+      voxels_.neighbours(v, [&, length_m = length_m](int next, double step) {
+        if (away_m(next, end) >= cut_reach * radius) return;
+        const auto [known, is_new] = direct_m.try_emplace(next, length_m + step);
+        if (!is_new && known->second <= length_m + step) return;
+        known->second = length_m + step;
+        open.push({length_m + step, next});
       });
     }
     return false;
