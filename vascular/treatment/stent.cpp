@@ -37,16 +37,16 @@ WallPressure hoop(const StentModel& m, double rest, double r) {
   return out;
 }
 
-/// The rings on both sides of a position, and the share of the way between them; false beyond the ends.
-bool between(const StentModel& m, const StentState& s, double s_m, int& ring, double& share) {
-  const double first = ring_middle_m(m, s, 0) - m.height_m / 2,
-               last = ring_middle_m(m, s, m.rings - 1) + m.height_m / 2;
-  if (s_m < first || s_m > last) return false;
+/// The rings on both sides of a position, and the share of the way between them; false beyond the ends. `middle_m`:
+/// where a ring's lies.
+template <class Middle>
+bool between(const StentModel& m, Middle middle_m, double s_m, int& ring, double& share) {
+  double below = middle_m(0);
+  if (s_m < below - m.height_m / 2 || s_m > middle_m(m.rings - 1) + m.height_m / 2) return false;
   ring = 0, share = 0;
-  double below = ring_middle_m(m, s, 0);
   if (s_m <= below) return true;
   for (; ring + 1 < m.rings; ++ring) {
-    const double above = ring_middle_m(m, s, ring + 1);
+    const double above = middle_m(ring + 1);
     if (s_m < above) {
       share = (s_m - below) / (above - below);
       return true;
@@ -116,7 +116,9 @@ double ring_middle_m(const StentModel& m, const StentState& s, int ring) {
 double inner_radius_at(const StentModel& m, const StentState& s, double s_m) {
   int ring;
   double share;
-  if (!between(m, s, s_m, ring, share)) return -1;
+  if (!between(
+          m, [&](int k) { return ring_middle_m(m, s, k); }, s_m, ring, share))
+    return -1;
   return share > 0 ? (1 - share) * s.radius_m[ring] + share * s.radius_m[ring + 1] : s.radius_m[ring];
 }
 
@@ -150,12 +152,15 @@ void add_sleeve(const StentModel& m, const StentState& s, const BalloonInside& b
                 StentScratch& x, Sleeve& sleeve) {
   if (sleeve.covers.empty())
     for (auto* v : {&x.p_Pa, &x.slope_Pa_m, &x.covers, &x.inner_m, &x.fixed_Pa}) v->assign(balloon_spheres, 0);
+  x.ring_m.resize(static_cast<std::size_t>(m.rings));
+  for (int k = 0; k < m.rings; ++k) x.ring_m[static_cast<std::size_t>(k)] = ring_middle_m(m, s, k);
+  const auto middle_m = [&](int k) { return x.ring_m[static_cast<std::size_t>(k)]; };
   const bool fixed = s.where == StentState::deployed;
   for (int b = 0; b < balloon_spheres; ++b) {
     int ring;
     double share;
     const double at_m = sphere_position(*balloon.model, *balloon.state, b);
-    if (at_m > balloon.to_m || !between(m, s, at_m, ring, share)) continue;
+    if (at_m > balloon.to_m || !between(m, middle_m, at_m, ring, share)) continue;
     const double a = lumen_m[b];
     const WallPressure one = hoop(m, s.rest_m[ring], a);
     const WallPressure two = share > 0 ? hoop(m, s.rest_m[ring + 1], a) : one;

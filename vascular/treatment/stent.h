@@ -117,6 +117,7 @@ struct StentInputs {
 };
 
 struct StentScratch {
+  std::vector<double> ring_m;                                       ///< where the middles of its rings lie
   std::vector<double> p_Pa, slope_Pa_m, covers, inner_m, fixed_Pa;  ///< per sphere of the balloon
 };
 
