@@ -148,17 +148,22 @@ HandlingMap::HandlingMap(const SessionModel& model) {
 double beyond_stent_m(const SessionModel& model, const SessionState& state) {
   constexpr double hard_atm = 10;
   const BalloonInBody own = balloon_in_body(state.coupling, state.treatment, {}, 0);
-  if (!own || !(own.state->pressure_Pa > hard_atm * 101325)) return 0;
+  if (!own || own.place->branch < 0 || !(own.state->pressure_Pa > hard_atm * 101325)) return 0;
   const auto& lesions = model.vessel->coronaries->lesions;
   double out_m = 0;
   for (int i = 0; i < static_cast<int>(lesions.size()); ++i) {
     const auto stents = stented(model, state, i);
-    const auto at = balloon_from_lesion_m(model, state, i);
+    const auto at = balloon_from_lesion_m(model, state, i, own.place->tool);
     if (!stents || !at) continue;
     const Plan& plan = lesions[static_cast<std::size_t>(i)];
     const double half_m = model.treatment.balloons[static_cast<std::size_t>(own.place->balloon)].length_m / 2;
     const double middle_m = *at + (plan.to_m - plan.from_m) / 2;
-    const double from_m = middle_m - half_m, to_m = middle_m + half_m;
+    const double from_m = middle_m - half_m;
+    double to_m = middle_m + half_m;
+    // What lies in a side branch, through a cell of the stent, is no part of the lesion's artery.
+    const vascular::VesselPath& way = model.treatment.paths[static_cast<std::size_t>(own.place->branch)];
+    for (; to_m > from_m && !same_vessel(way, plan.path, plan.from_m + to_m); to_m -= 0.1e-3) {
+    }
     if (to_m < stents->from_m || from_m > stents->to_m) continue;
     out_m = std::max({out_m, stents->from_m - from_m, to_m - stents->to_m});
   }

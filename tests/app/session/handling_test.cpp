@@ -5,60 +5,11 @@
 
 #include <cmath>
 
-#include "app/session/handling/errors.h"
-#include "app/session/run/run.h"
 #include "core/base/units.h"
-#include "data/catalogue/script/script.h"
+#include "tests/app/session/handled_scene.h"
 
 namespace ostium::app {
 namespace {
-
-enum Tool { guide, thick, thin, balloon };
-
-/// A vessel index of three places (aorta, its branch, ventricle), and an artery of 100 cells of 1 mm with its lesion
-/// from 30 to 40 mm; a side branch that leaves at 20 mm has cells 100 to 149, copies of those from 50 on.
-struct Played {
-  HandlingMap map;
-  HandlingScene scene;
-  std::vector<SessionEvent> events;
-
-  Played() {
-    map.astray_m = {0, 30e-3, 0, 0}, map.in_coronary_m = {0, 0, 0, 8e-3};
-    map.before_root = {1, 1, 0, 0}, map.in_ventricle = {0, 0, 1, 0};
-    for (int c = 0; c < 150; ++c) {
-      const bool side = c >= 100;
-      map.from_ostium_m.push_back(1e-3 * (side ? c - 80 : c));
-      map.to_end_m.push_back(1e-3 * (side ? 149 - c : 99 - c));
-      map.unplanned_m.push_back(side ? 1e-3 * (c - 99) : 0);
-      map.deep_m.push_back(10e-3), map.healthy_m.push_back(1.5e-3);
-      map.behind_lesion.push_back(!side && c > 40);
-    }
-    scene.tools.resize(4);
-    for (HandledTool& tool : scene.tools) tool.sphere = 0;
-    scene.beam = scene.thin_tip_is_seen = scene.diastasis = true;
-  }
-
-  HandledTool& operator[](Tool t) { return scene.tools[static_cast<std::size_t>(t)]; }
-  void feed(Tool t, double by_m) {
-    (*this)[t].inserted_m += by_m, (*this)[t].fed_m += by_m, (*this)[t].feed_m_s = by_m / 0.01;
-  }
-  /// Looks every 10 ms.
-  template <class Errors, class Each>
-  void play(Errors& errors, double seconds, Each each) {
-    for (int i = 0; i < std::lround(seconds / 0.01); ++i) {
-      scene.time_s += 0.01;
-      each(i);
-      look_for(errors, map, scene, EventSink{static_cast<std::uint64_t>(1e3 * scene.time_s), events});
-    }
-  }
-  /// The number of events of a kind, which it then clears.
-  int took(data::EventCode code) {
-    const auto n = std::count_if(events.begin(), events.end(),
-                                 [&](const SessionEvent& e) { return e.code == static_cast<int>(code); });
-    std::erase_if(events, [&](const SessionEvent& e) { return e.code == static_cast<int>(code); });
-    return static_cast<int>(n);
-  }
-};
 
 TEST(Handling, ACatheterFollowsAWireBelowTheRoot) {
   Played p;
@@ -198,96 +149,6 @@ TEST(Handling, ACoronaryWireStaysBehindTheLesion) {
   p.feed(thin, -55e-3);
   lie(25);
   EXPECT_TRUE(p.events.empty()) << "drawn back on purpose";
-}
-
-RunSetup tools_in_place() {
-  RunSetup out;
-  set_vessel("rca-mid-focal", vascular::LengthUnit::millimetre, out);
-  set_script(data::find_script("rca-from-the-ostium"), out);
-  return out;
-}
-
-std::shared_ptr<const Vessel> vessel_in_place() {
-  static const std::shared_ptr<const Vessel> made = [] {
-    std::string warnings;
-    return make_vessel(tools_in_place(), warnings);
-  }();
-  return made;
-}
-
-TEST(Handling, ABalloonFollowsAWireBeyondTheGuide) {
-  Played p;
-  DeviceErrors errors;
-  p.scene.device = balloon, p.scene.catheter = guide;
-  p[guide].inserted_m = 1, p.scene.wire_tip_m = 1.05;
-  p[balloon].inserted_m = 0.9;
-  p.play(errors, 1, [&](int) { p.feed(balloon, 1.5e-3); });
-  EXPECT_TRUE(p.events.empty()) << "to the wire's tip, 50 mm beyond the guide";
-  p.play(errors, 0.04, [&](int) { p.feed(balloon, 1e-3); });
-  EXPECT_TRUE(p.events.empty());
-  p.play(errors, 0.2, [&](int) { p.feed(balloon, 1e-3); });
-  EXPECT_EQ(p.took(data::EventCode::device_without_wire), 1);
-
-  DeviceErrors anew;
-  p.scene.wire_tip_m = 0, p[balloon].inserted_m = 0.9;
-  p.play(anew, 0.1, [&](int) { p.feed(balloon, 10e-3); });
-  EXPECT_TRUE(p.events.empty()) << "in the guide it needs no wire";
-  p.play(anew, 0.1, [&](int) { p.feed(balloon, -10e-3); });
-  p.play(anew, 0.3, [&](int) { p.feed(balloon, 10e-3); });
-  EXPECT_EQ(p.took(data::EventCode::device_without_wire), 1);
-}
-
-TEST(Handling, BalloonsAreEmptyAsTheyMoveAndNotHeldForLong) {
-  ScriptedRun run(tools_in_place(), vessel_in_place());
-  Played p;
-  DeviceErrors errors;
-  const auto play = [&](double seconds, double fed_m = 0) {
-    for (int i = 0; i < std::lround(seconds / 0.01); ++i) {
-      p.scene.time_s += 0.01;
-      p[balloon].fed_m += fed_m;
-      p.scene.beyond_stent_m = beyond_stent_m(run.model, run.state);
-      look_for(errors, p.map, p.scene, EventSink{0, p.events});
-    }
-  };
-  run.state.coupling.balloons[0].tool = 1, run.state.coupling.balloons[0].balloon = 0;
-  p.scene.device = balloon;
-  play(5, 1e-3);
-  p.scene.gauge_atm = 10, p.scene.filled = true;
-  play(1, 1e-5);
-  EXPECT_EQ(p.took(data::EventCode::open_balloon_dragged), 0) << "by 1 mm";
-  p.scene.gauge_atm = -1;
-  play(1, -4e-5);
-  EXPECT_EQ(p.took(data::EventCode::open_balloon_dragged), 1) << "the gauge is down, the balloon is not empty yet";
-  p.scene.filled = false;
-  play(5, -1e-3);
-  EXPECT_TRUE(p.events.empty());
-  p.scene.gauge_atm = 10, p.scene.filled = true;
-  play(59.9);
-  EXPECT_TRUE(p.events.empty());
-  play(0.3);
-  EXPECT_EQ(p.took(data::EventCode::long_inflation), 1);
-
-  // 12 mm of balloon in the middle of the 15 mm stent, then at its edge.
-  const Plan& plan = run.model.vessel->coronaries->lesions[0];
-  const double branch = run.model.physiology.flow.tree.branch("RCA"), middle = (plan.from_m + plan.to_m) / 2;
-  vascular::StentState& stent = run.state.treatment.stents[0];
-  const double half_stent = run.model.treatment.stents[0].length_m / 2,
-               half_balloon = run.model.treatment.balloons[0].length_m / 2;
-  stent.where = vascular::StentState::deployed, stent.branch = branch, stent.middle_m = middle, stent.shift_m = 0;
-  run.state.coupling.balloons[0].branch = branch;
-  run.state.treatment.balloons[0].pressure_Pa = 12 * 101325;
-  const auto reach = [&](double beyond_m) {
-    run.state.treatment.balloons[0].seat_m = middle + half_stent + beyond_m - half_balloon;
-  };
-  reach(1e-3);
-  play(5);
-  EXPECT_EQ(p.took(data::EventCode::balloon_beyond_stent), 0);
-  reach(3e-3);
-  play(5);
-  EXPECT_EQ(p.took(data::EventCode::balloon_beyond_stent), 1);
-  run.state.treatment.balloons[0].pressure_Pa = 8 * 101325;
-  play(5);
-  EXPECT_EQ(p.took(data::EventCode::balloon_beyond_stent), 0) << "softly";
 }
 
 TEST(Handling, BeamAndPushAreForSomething) {
