@@ -108,13 +108,18 @@ Penetration penetration(const SessionModel& model, const SessionState& state) {
               balls[n].distance_m = std::min(balls[n].distance_m, core::triangle_distance(balls[n].p, a, b, c));
         }
   }
-  Penetration out;
+  Penetration out{.deepest_s = seconds(model, state)};
   for (const Ball& ball : balls) {
     const double depth = ball.radius_m - ball.distance_m;
     if (!ball.is_covered) out.deepest_m = std::max(out.deepest_m, depth);
     if ((ball.is_tip || depth > 0.5 * ball.radius_m) && winding(vertices, wall, door, ball.p) < 0.5) ++out.outside;
   }
   return out;
+}
+
+void add(const Penetration& other, Penetration& all) {
+  if (other.deepest_m > all.deepest_m) all.deepest_m = other.deepest_m, all.deepest_s = other.deepest_s;
+  all.outside += other.outside;
 }
 
 }  // namespace ostium::app

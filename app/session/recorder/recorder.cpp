@@ -188,11 +188,7 @@ void Recorder::follow() {
 /// Checks walls and flow of the slot's state: once a second, and too slow for the simulation thread.
 void Recorder::look(const Slot& slot, std::vector<double>& events) {
   take_state(slot.block.states.data(), looked_at_);
-  if (options_.penetration) {
-    const Penetration now = app::penetration(model_, looked_at_);
-    deepest_.deepest_m = std::max(deepest_.deepest_m, now.deepest_m);
-    deepest_.outside += now.outside;
-  }
+  if (options_.penetration) app::add(app::penetration(model_, looked_at_), deepest_);
   if (!model_.has_patient() || model_.vessel->coronaries->lesions.empty()) return;
   const double ffr = ffr_behind_lesion(model_, looked_at_);
   if (std::fabs(ffr - ffr_) < ffr_step) return;

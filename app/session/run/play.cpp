@@ -63,8 +63,7 @@ class DepthJudge {
     if (second != second_) second_ = second, deepest_here_m_ = least_m;
     if (deep_m < 1.5 * deepest_here_m_ || deep_m < found_.deepest_m + least_m) return;
     deepest_here_m_ = deep_m;
-    const Penetration now = penetration(model, state);
-    found_.deepest_m = std::max(found_.deepest_m, now.deepest_m), found_.outside += now.outside;
+    add(penetration(model, state), found_);
   }
   const Penetration& found() const { return found_; }
 
@@ -131,8 +130,10 @@ PlayReport play(ScriptedRun& run, const RunSetup& setup, const PlayOptions& opti
   }
   out.metrics = metrics_of(record);
   out.penetration = recorder.penetration();
-  out.penetration.deepest_m = std::max(out.penetration.deepest_m, judge.found().deepest_m);
-  out.penetration.outside += judge.found().outside;
+  add(judge.found(), out.penetration);
+  // The judge looks at the wall where it came to lie, contact's planes at where it met it.
+  if (out.penetration.deepest_m > out.deepest_m)
+    out.deepest_m = out.penetration.deepest_m, out.deepest_s = out.penetration.deepest_s;
   out.waits = recorder.waits();
   out.hash = hash(run.state);
   out.problem = recorder.problem();

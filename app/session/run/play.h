@@ -39,7 +39,7 @@ struct PlayReport {
   std::vector<data::Metric> metrics;
   /// By an independent judge: once a second and, unless in real time, where contact says that it is deep.
   Penetration penetration;
-  double deepest_m = 0, deepest_s = 0;  ///< at most, of all steps: by contact's own planes; and when
+  double deepest_m = 0, deepest_s = 0;  ///< of all steps, by contact's own planes or the judge; and when
   std::string problem;                  ///< of the recording
   long waits = 0;
   std::uint64_t hash = 0;  ///< of the last state
