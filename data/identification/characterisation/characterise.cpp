@@ -52,12 +52,15 @@ std::string why_unused(Verdict verdict) {
   }
 }
 
+constexpr const char* ended = "its search was ended before everything was tried";
+
 void explain_curves_of(CharacterisedSet& s, const CharacteriseOptions& options) {
   curves::CurveOptions how;
   how.progress = options.progress, how.stop = options.stop;
   const curves::CurveExplanation found = explain_curves(s.root, how);
   s.found = found;
-  s.why_unused = why_unused(found.verdict);
+  s.why_unused = found.ended_early ? ended : why_unused(found.verdict);
+  if (found.verdict == Verdict::cannot_be_judged) s.why_unused = "it cannot be judged; that takes " + found.next;
   if (!s.used()) return;
   s.stiffness = estimates_of(s.root, found);
   s.friction = friction_of(s.root, found);
@@ -69,7 +72,7 @@ void explain_shapes_of(CharacterisedSet& s, const CharacteriseOptions& options) 
   how.library = true, how.threads = options.threads, how.progress = options.progress, how.stop = options.stop;
   const Explanation found = explain(s.shapes, how);
   s.found = found;
-  s.why_unused = why_unused(found.verdict);
+  s.why_unused = found.ended_early ? ended : why_unused(found.verdict);
   if (s.used()) s.stiffness = estimates_of(s.shapes, found);
 }
 
@@ -201,6 +204,22 @@ void require_no_copies(const std::vector<std::vector<MeasuredNumbers>>& of_sets,
                 *c.sets[k].root.file, other.id, one.id, *c.sets[l].root.file));
 }
 
+/// A wire and a catheter are no one instrument; calipers differ by less.
+void require_one_width(const Characterisation& c) {
+  constexpr double most_apart = 1.1;
+  const auto radius_mm = [](const CharacterisedSet& s) {
+    return s.root.find("instruments")->items[0].find("outer_radius_mm")->number;
+  };
+  for (const CharacterisedSet& s : c.sets) {
+    const double own = radius_mm(s), first = radius_mm(c.sets[0]);
+    if (std::max(own, first) > most_apart * std::min(own, first))
+      throw LoadError(
+          fmt::format("{}: its instrument has an outer radius of {:g} mm, and that of {} has {:g} mm; expected sets of "
+                      "one instrument",
+                      *s.root.file, own, *c.sets[0].root.file, first));
+  }
+}
+
 }  // namespace
 
 Characterisation characterise(const std::vector<std::string>& files, const std::string& like,
@@ -224,6 +243,7 @@ Characterisation characterise(const std::vector<std::string>& files, const std::
     c.sets.push_back(std::move(s));
   }
   require_no_copies(measured, c);
+  require_one_width(c);
   for (CharacterisedSet& s : c.sets) {
     if (options.stop && options.stop()) break;
     if (options.progress) options.progress(s.name);
@@ -237,6 +257,12 @@ Characterisation characterise(const std::vector<std::string>& files, const std::
     throw LoadError(
         "none of the sets gives weight and sizes, as explained sets of shapes do: name an instrument that has them "
         "(--like wire-014-workhorse, or a file)");
+  if (std::none_of(c.sets.begin(), c.sets.end(), [](const CharacterisedSet& s) { return s.used(); })) {
+    std::string why;
+    for (const CharacterisedSet& s : c.sets)
+      why += fmt::format("{}{}: {}", why.empty() ? "" : "; ", s.name, s.why_unused);
+    throw std::runtime_error("no set says anything of the instrument, so none is written; " + why);
+  }
   c.declared = declared_in(c.like);
   c.wire = wire_of(c, {});
   check_by_the_others(c, options);

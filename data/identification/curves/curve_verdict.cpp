@@ -174,8 +174,13 @@ void sentence(CurveExplanation& x) {
       break;
     }
     case Verdict::cannot_be_judged:
-      x.text.push_back("There are too few samples to decide anything.");
-      x.next = "more samples, and runs at other settings";
+      if (too_small(x)) {
+        x.text.push_back("There are too few samples to decide anything.");
+        x.next = "more samples, and runs at other settings";
+      } else {
+        x.text.push_back("What was measured would be the same with any instrument, so it says nothing of this one.");
+        x.next = "runs in which it is bent, turned or pushed where that can be seen";
+      }
       break;
     case Verdict::unexplained:
       x.text.push_back(fmt::format("Neither what is declared nor what was tried explains it: {}.", what_is_left(d)));
@@ -202,13 +207,14 @@ void decide(CurveExplanation& x) {
     x.rivals = rivals_of(list, x.declared);
     x.verdict = x.rivals > 1 ? Verdict::ambiguous : Verdict::effect;
   } else if (x.declared.is_noise) {
-    x.verdict = Verdict::explained;
+    x.verdict = x.set->free().empty() ? Verdict::cannot_be_judged : Verdict::explained;
   } else if (any && list.front().share_removed >= most_of) {
     x.verdict = Verdict::mostly;
   } else {
     x.verdict = Verdict::unexplained;
   }
   sentence(x);
+  if (x.ended_early) x.text.emplace_back(ended_early_words);
   add_laws(x);
   add_noise(x);
   add_warnings(x);

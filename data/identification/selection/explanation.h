@@ -19,6 +19,9 @@ inline constexpr const char* sigma_is =
 enum class Verdict { explained, effect, mostly, ambiguous, unexplained, cannot_be_judged };
 
 std::string to_string(Verdict verdict);
+/// Of a search that was ended.
+inline constexpr const char* ended_early_words =
+    "Ended before everything was tried: another effect may do better than these.";
 
 /// What the best model leaves beyond noise.
 struct Remaining {

@@ -220,7 +220,7 @@ void add_faults(const std::vector<DataFault>& faults, Explanation& x) {
 
 std::vector<std::string> verdict_text(const MeasurementSet& set, const Explanation& x) {
   std::vector<std::string> out = {of_verdict(x)};
-  if (x.ended_early) out.push_back("Ended before everything was tried: another effect may do better than these.");
+  if (x.ended_early) out.emplace_back(ended_early_words);
   out.push_back(fmt::format("{}: {}. Declared model, fitted: {}, {}.",
                             set.imaging.registration_free ? "Nothing fitted but the measuring frame" : "Nothing fitted",
                             with_unit(x.rms_nominal_m, x.unit), with_unit(x.declared.rms_m, x.unit),

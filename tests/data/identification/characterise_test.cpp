@@ -127,6 +127,32 @@ TEST_F(Characterise, WithoutWeightAndSizesAnInstrumentIsAskedFor) {
 }
 
 /// The templates have their samples in tables beside them.
+TEST_F(Characterise, SetsOfInstrumentsOfTwoWidthsAreRefused) {
+  const std::string bend = write("bend", synthetic::bend_of(wire, 1).json);
+  std::string other = synthetic::torque_of(wire, 1).json;
+  const std::size_t at = other.find("\"outer_radius_mm\":") + 18;
+  other.replace(at, other.find_first_of(",}\n", at) - at, " 1.0");
+  try {
+    characterise({bend, write("torque", other)}, "", {});
+    ADD_FAILURE() << "a wire and a catheter";
+  } catch (const LoadError& error) {
+    EXPECT_NE(std::string(error.what()).find("outer radius of 1 mm"), std::string::npos) << error.what();
+  }
+}
+
+TEST_F(Characterise, AnEndedSearchSaysNothingOfTheInstrument) {
+  CharacteriseOptions options;
+  int asked = 0;
+  options.stop = [&] { return ++asked > 3; };
+  try {
+    characterise({write("bend", synthetic::bend_of(wire, 1).json)}, to_json(load_json(instrument_file("rosen"))),
+                 options);
+    ADD_FAILURE() << "written after " << asked;
+  } catch (const std::runtime_error& error) {
+    EXPECT_NE(std::string(error.what()).find("ended before everything was tried"), std::string::npos) << error.what();
+  }
+}
+
 TEST_F(Characterise, TablesOfSamplesAreRead) {
   const std::string templates = data_folder() + "/templates/", like = instrument_file("wire-014-workhorse");
   const Characterisation found =

@@ -69,18 +69,11 @@ const JsonObjectKeys run_keys = curves::run_keys(
      {"density_mm", true, "a list for each site, with a density in mm for each frame",
       json_type::list_of(json_type::list_of(json_type::number(), 8), 1)}});
 
-/// Refuses numbers that do not rise.
-void must_rise(const JsonObject& entry, const std::string& key, const VectorXd& x) {
-  for (Eigen::Index k = 1; k < x.size(); ++k)
-    if (!(x[k] > x[k - 1]))
-      entry.list(key)[static_cast<std::size_t>(k)].refuse(fmt::format("more than the {:g} before it", x[k - 1]));
-}
-
 void read_beat(const JsonObject& root, Setup& setup) {
   const JsonObject shape(root["flow_shape"], shape_keys);
   const VectorXd phase = curves::read_samples(shape, "phase", 3),
                  relative = curves::read_samples_like(shape, "relative", phase, "phase");
-  must_rise(shape, "phase", phase);
+  curves::must_rise(shape, "phase", phase);
   if (phase[0] != 0 || phase.tail<1>()[0] != 1) shape.refuse("phase");
   if (!(relative.minCoeff() > 0)) shape.refuse("relative");
   setup.sampled = {
@@ -92,11 +85,11 @@ void read_artery(const JsonObject& root, Setup& setup) {
   const JsonObject artery(root["artery"], artery_keys);
   setup.place_m = curves::read_samples(artery, "from_ostium_mm", 2) * mm;
   setup.diameter_m = curves::read_samples_like(artery, "diameter_mm", setup.place_m, "from_ostium_mm") * mm;
-  must_rise(artery, "from_ostium_mm", setup.place_m / mm);
+  curves::must_rise(artery, "from_ostium_mm", setup.place_m / mm);
   if (setup.place_m[0] != 0) artery.refuse("from_ostium_mm");
   if (!(setup.diameter_m.minCoeff() > 0 && setup.diameter_m.maxCoeff() <= 100 * mm)) artery.refuse("diameter_mm");
   setup.site_m = curves::read_samples(root, "sites_mm", 1) * mm;
-  must_rise(root, "sites_mm", setup.site_m / mm);
+  curves::must_rise(root, "sites_mm", setup.site_m / mm);
   for (Eigen::Index k = 0; k < setup.site_m.size(); ++k)
     if (setup.site_m[k] < 0 || setup.site_m[k] > setup.place_m.tail<1>()[0])
       root.list("sites_mm")[static_cast<std::size_t>(k)].refuse(
@@ -116,7 +109,7 @@ Injection read_injection(const JsonValue& value) {
 
 VectorXd read_times(const JsonObject& entry) {
   const VectorXd time = curves::read_samples(entry, "time_s", 8);
-  must_rise(entry, "time_s", time);
+  curves::must_rise(entry, "time_s", time);
   const double rate = entry.positive("frames_per_s"),
                seen = static_cast<double>(time.size() - 1) / (time.tail<1>()[0] - time[0]);
   if (seen < rate / 3 || seen > rate * 3)

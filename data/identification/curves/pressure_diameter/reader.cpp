@@ -67,17 +67,11 @@ const JsonObjectKeys run_keys = curves::run_keys(
 
 constexpr double beyond_chart = 0.25;  // of its range: how far from it a sample may lie
 
-void must_rise(const JsonObject& entry, const std::string& key, const VectorXd& x) {
-  for (Eigen::Index k = 1; k < x.size(); ++k)
-    if (!(x[k] > x[k - 1]))
-      entry.list(key)[static_cast<std::size_t>(k)].refuse(fmt::format("more than the {:g} before it", x[k - 1]));
-}
-
 void read_balloon(const JsonValue& value, Setup& setup) {
   const JsonObject entry(value, balloon_keys), chart(entry["chart"], chart_keys);
   const VectorXd p = curves::read_samples(chart, "pressure_atm"),
                  d = curves::read_samples_like(chart, "diameter_mm", p, "pressure_atm");
-  must_rise(chart, "pressure_atm", p), must_rise(chart, "diameter_mm", d);
+  curves::must_rise(chart, "pressure_atm", p), curves::must_rise(chart, "diameter_mm", d);
   if (p[0] < 0) chart.refuse("pressure_atm");
   const double nominal = entry.positive("nominal_mm");
   if (!(nominal > 0.7 * d[0] && nominal < 1.3 * d.tail<1>()[0]))
@@ -136,7 +130,7 @@ curves::Run read_run(const JsonValue& value, const JsonObject& noise, bool place
   if (inflation.vessel < 0 && in != "free") entry["in"].refuse("\"free\", or the name of one of \"vessels\"");
   inflation.stented = entry.has("stented") && entry.boolean("stented");
   inflation.time_s = curves::read_samples(entry, "time_s", 6);
-  must_rise(entry, "time_s", inflation.time_s);
+  curves::must_rise(entry, "time_s", inflation.time_s);
   const VectorXd pressure = curves::read_samples_like(entry, "pressure_atm", inflation.time_s, "time_s");
   inflation.pressure_Pa = pressure * atm;
   check_pressures(entry, setup, inflation);
@@ -197,7 +191,7 @@ std::unique_ptr<curves::Set> read(const JsonValue& file) {
   setup.place_m = {0};
   if (places) {
     const VectorXd at = curves::read_samples(root, "places_mm", 2);
-    must_rise(root, "places_mm", at);
+    curves::must_rise(root, "places_mm", at);
     const VectorXd m = at * mm;
     setup.place_m = {m.begin(), m.end()};
   }

@@ -74,6 +74,12 @@ Eigen::VectorXd read_samples_like(const JsonObject& run, const std::string& key,
   return out;
 }
 
+void must_rise(const JsonObject& entry, const std::string& key, const Eigen::VectorXd& x) {
+  for (Eigen::Index k = 1; k < x.size(); ++k)
+    if (!(x[k] > x[k - 1]))
+      entry.list(key)[static_cast<std::size_t>(k)].refuse(fmt::format("more than the {:g} before it", x[k - 1]));
+}
+
 Run begin_run(const JsonObject& entry, const std::vector<Run>& others) {
   Run run;
   run.id = entry.text("id"), run.place = entry.value().path();

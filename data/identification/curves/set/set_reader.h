@@ -34,6 +34,8 @@ Eigen::VectorXd read_samples(const JsonObject& run, const std::string& key, Eige
 /// The same, as many as `of` has.
 Eigen::VectorXd read_samples_like(const JsonObject& run, const std::string& key, const Eigen::VectorXd& of,
                                   const std::string& of_key);
+/// Refuses numbers that do not rise, at the first that does not.
+void must_rise(const JsonObject& run, const std::string& key, const Eigen::VectorXd& x);
 /// id, group and place; refuses an id that another run has.
 Run begin_run(const JsonObject& entry, const std::vector<Run>& others);
 

@@ -225,7 +225,7 @@ const JsonObjectKeys run_keys = curves::run_keys(
      {"roller_radius_mm", true, "from a roller's axis to the wire's axis in mm, >= 0", json_type::number(from_zero)},
      {"from_tip_mm", true, "where it was pressed, from the distal tip in mm, >= 0", json_type::number(from_zero)},
      {"start_s", false, "when the run began in s, >= 0", json_type::number(from_zero)}},
-    {{"time_s", true, "since the run began in s, one a sample", json_type::list_of(json_type::number(), 4)},
+    {{"time_s", true, "since the run began in s, rising, one a sample", json_type::list_of(json_type::number(), 4)},
      {"displacement_mm", true, "of the middle roller in mm, one a sample", json_type::list_of(json_type::number(), 4)},
      {"force_N", true, "on the middle roller in N, one a sample", json_type::list_of(json_type::number(), 4)}});
 
@@ -260,6 +260,7 @@ curves::Run read_run(const JsonValue& value, const JsonObject& noise,
   pass.share = shares(entry, pass, sections);
   pass.displacement_m = curves::read_samples(entry, "displacement_mm") * mm;
   pass.time_s = curves::read_samples_like(entry, "time_s", pass.displacement_m, "displacement_mm");
+  curves::must_rise(entry, "time_s", pass.time_s);
   if (entry.has("start_s")) pass.time_s.array() += entry.not_negative("start_s");
   curves::Channel force{"force_N", "force", "N", {}, {}};
   force.measured = curves::read_samples_like(entry, "force_N", pass.displacement_m, "displacement_mm");
