@@ -33,6 +33,12 @@ FramesFile read_png_frame(const std::string& file) {
     throw LoadError(fmt::format("{}: not a PNG that can be read: {}", file, png.message));
   const bool is_16_bit = png.format & PNG_FORMAT_FLAG_LINEAR, is_colour = png.format & PNG_FORMAT_FLAG_COLOR;
   const Eigen::Index rows = png.height, columns = png.width;
+  constexpr Eigen::Index most_pixels = 64'000'000;  // ten times a plain film's; a header may claim anything
+  if (rows * columns > most_pixels) {
+    png_image_free(&png);
+    throw LoadError(fmt::format("{}: not a PNG that can be read: {} x {} pixels; expected at most {} million", file,
+                                columns, rows, most_pixels / 1'000'000));
+  }
   FramesFile out;
   Image image(rows, columns);
   bool read = false;

@@ -82,7 +82,7 @@ void check(const Collimator& c) {
   for (double edge : {c.left, c.right, c.top, c.bottom})
     if (!(edge > 0 && edge <= 0.5))
       throw std::invalid_argument(
-          "collimator: each shutter stands between 0 (closed) and 0.5 (the picture's edge) from the middle");
+          "collimator: each shutter stands more than 0 (closed) and at most 0.5 (the picture's edge) from the middle");
 }
 
 const Beam& Beams::operator()(const XrayTube& tube) {

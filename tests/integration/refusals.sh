@@ -49,6 +49,11 @@ TMPDIR=/nowhere refused "TMPDIR" serve rca-mid-focal
 expect 0 "1 runs" "$ostium" sweep rca-mid-focal --script iliac-wire --seconds 0.05 --seeds 1..1 -o many.csv --part 100/100 \
   --vary "person=$(seq -s, 1 100)"
 
+# A run at a box that never was there is no success (or, where no bus can be looked at, refused).
+code=0
+said=$(timeout 60 "$ostium" run rca-mid-focal --script iliac-wire --device usb --seconds 0.2 2>&1) || code=$?
+[[ $code == 3 || ($code == 1 && $said == *"never answered"*) ]]
+
 # What goes against what else is said is not passed over.
 refused "one emulated box, EMULATED" device monitor --emulator --serial X
 expect 0 "running" "$ostium" device monitor --emulator --serial EMULATED --seconds 0.3

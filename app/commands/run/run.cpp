@@ -164,6 +164,12 @@ int run_script(const RunArguments& a) {
     fmt::print(stderr, "ostium run: the recording ends early: {}\n", report.problem);
     return 1;
   }
+  if (device && device->hand().now().reports == 0) {
+    fmt::print(stderr,
+               "ostium run: the tracking box never answered, so nobody moved an instrument; `ostium device list` says "
+               "what is plugged in\n");
+    return 1;
+  }
   return report.outcome == "success" || report.outcome == "ended" ? 0 : 1;
 }
 
