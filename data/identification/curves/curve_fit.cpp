@@ -28,8 +28,11 @@ std::vector<Curves> Model::standardised() const {
 
 double Model::rms() const {
   double sum = 0, count = 0;
-  for (const Curves& run : standardised())
-    for (const VectorXd& channel : run) sum += channel.squaredNorm(), count += static_cast<double>(channel.size());
+  const std::vector<Curves> all = standardised();
+  for (std::size_t r = 0; r < all.size(); ++r)
+    for (std::size_t c = 0; c < all[r].size(); ++c)
+      if (chosen.empty() || chosen[r][c])
+        sum += all[r][c].squaredNorm(), count += static_cast<double>(all[r][c].size());
   return count > 0 ? std::sqrt(sum / count) : 0;
 }
 
@@ -225,7 +228,7 @@ Model Fit::run(const std::vector<std::size_t>& effects, const Model* near) const
 }
 
 void Fit::judge(const Problem& p, Model& model) const {
-  model.on = p.on_at(model.x);
+  model.on = p.on_at(model.x), model.chosen = chosen_;
   model.squares = data_rows(model, noise_, chosen_).squaredNorm();
   const VectorXd spread = p.spread();
   model.numbers = static_cast<double>(model.x.size());

@@ -27,16 +27,18 @@ struct Model {
   /// Of the chosen misfits, whitened and robust, in units of the noise. Where the law leaves something open, minus
   /// twice the log likelihood against that of misfits of 0 with noise alone.
   double squares = 0;
-  double clipped_squares = 0;  ///< of the same, large ones cut if tails are heavy
-  double measured = 0;         ///< how many numbers were fitted
-  double numbers = 0;          ///< with how many; of a law, those that the data determine
+  double clipped_squares = 0;             ///< of the same, large ones cut if tails are heavy
+  double measured = 0;                    ///< how many numbers were fitted
+  std::vector<std::vector<bool>> chosen;  ///< which channels of which runs they are; empty: all
+  double numbers = 0;                     ///< with how many; of a law, those that the data determine
   double bic = 0;
   std::optional<double> held_out;  ///< root mean square misfit of runs that the fit has not seen, in units of the noise
   bool converged = false;
 
   double degrees_of_freedom() const { return std::max(measured - numbers, 1.0); }
   double per_freedom() const { return clipped_squares / degrees_of_freedom(); }
-  double rms() const;  ///< of the misfits, in units of the noise as declared and of what the law leaves open
+  double rms()
+      const;  ///< of the misfits that were fitted, in units of the noise as declared and of what the law leaves open
   /// Misfits in units of the noise and of what the law leaves open.
   std::vector<Curves> standardised() const;
 };

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "data/identification/residuals/noise_model.h"
+
 namespace ostium::data {
 
 namespace {
@@ -41,6 +43,8 @@ bool is_noise(const FittedModel& model, const Noise& noise) {
     // Four standard deviations of chi2 per degree of freedom; an estimated noise is itself uncertain by some per cent.
     const double allowed = 1 + 4 * std::sqrt(2 / model.degrees_of_freedom) + (noise.declared ? 0 : 0.15);
     if (*model.chi2_per_dof > allowed) return false;
+    // What is far below the noise that is declared has a shape, but is no misfit: a unit is wrong, which is said.
+    if (noise.declared && !doubt_of_noise(*model.chi2_per_dof, model.degrees_of_freedom).empty()) return true;
   }
   if (model.correlation && model.correlation->standard_errors > 4) return false;
   return !has_pattern(model);

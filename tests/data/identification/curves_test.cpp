@@ -69,6 +69,17 @@ TEST(Curves, ARunInAnotherUnitIsNamedWithItsMend) {
   EXPECT_NE(x.best().fault->what.find("gram-force"), std::string::npos) << x.best().fault->what;
 }
 
+TEST(Curves, WhatIsLeftOutIsNotCountedAsLeft) {
+  auto file = nlohmann::ordered_json::parse(made("three_point_bend", "clean", 0, 101).json);
+  for (auto& value : file["runs"][0]["force_N"]) value = 0;
+  const CurveExplanation x = explained(file.dump());
+  ASSERT_EQ(to_string(x.verdict), "effect");
+  ASSERT_TRUE(x.best().fault);
+  EXPECT_EQ(x.best().fault->id, "outlier_experiment");
+  EXPECT_GT(x.declared.model.rms(), 5);
+  EXPECT_NEAR(x.best().model.rms(), 1, 0.15);
+}
+
 /// A set whose column is multiplied in all runs.
 CurveExplanation with_column(const char* kind, const std::string& key, double factor) {
   auto file = nlohmann::ordered_json::parse(made(kind, "clean", 0, 101).json);
