@@ -30,9 +30,10 @@ constexpr std::size_t longest_refusal = 4096;  // bytes
 std::string reader_set;  // empty: beside us
 
 std::string reader_beside_us() {
-  if (!reader_set.empty()) return reader_set;
   std::error_code no_proc;
-  const fs::path reader = fs::read_symlink("/proc/self/exe", no_proc).parent_path() / "ostium-reader";
+  const fs::path reader = !reader_set.empty()
+                              ? fs::path(reader_set)
+                              : fs::read_symlink("/proc/self/exe", no_proc).parent_path() / "ostium-reader";
   if (!fs::exists(reader, no_proc))
     throw data::LoadError(reader.string() +
                           ": is not there, and files are read by it; build or install it beside ostium");

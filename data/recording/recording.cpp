@@ -323,6 +323,7 @@ void read_to_end(const std::string& path) {
   const RecordingReader recording(path);
   const TableFile& file = recording.tables();
   for (const char* text : {"software", "setup"}) file.text(text);
+  for (const std::string& list : file.lists_of_texts("")) file.texts("", list);
   recording.step_s();
   recording.end();
   std::vector<std::string> tables = {"inputs", "hash",          "signals",        "events",      "state",
@@ -331,7 +332,7 @@ void read_to_end(const std::string& path) {
     for (const std::string& tool : recording.tools()) tables.push_back(shape_table(tool));
   for (const std::string& table : tables) {
     if (!file.has(table)) continue;
-    file.columns(table);
+    for (const std::string& list : file.lists_of_texts(table)) file.texts(table, list);
     const std::size_t rows = file.rows(table), piece = 1 + at_once / static_cast<std::size_t>(file.width(table));
     const bool whole = table == "hash" || table == "mesh_triangles" || table == "shapes_step";
     for (std::size_t first = 0; first < rows; first += piece) {

@@ -68,6 +68,7 @@ hid_t unlocked() {
 /// Beyond these a file is damaged: a day's steps; a state's numbers a hundred times over; a text.
 constexpr hsize_t most_rows = 100'000'000, most_columns = 10'000'000;
 constexpr std::size_t longest_text = 256 << 20, most_names = 10'000;
+constexpr hsize_t most_texts = 4'000;  // of an attribute that we write
 
 hid_t text_type(std::size_t length) {
   const hid_t type = H5Tcopy(H5T_C_S1);
@@ -206,6 +207,9 @@ void TableFile::set_attribute(const std::string& table, const TableAttribute& at
   const auto* const texts = std::get_if<std::vector<std::string>>(&value);
   const hsize_t count = numbers ? numbers->size() : texts ? texts->size() : 1;
   if (count == 0) return;
+  if (texts && count > most_texts)
+    throw WriteError(
+        fmt::format("{}: {} has {} texts; {} are kept at most", file_->path, attribute.name, count, most_texts));
   std::vector<const char*> pointers;
   if (text) pointers.push_back(text->c_str());
   if (texts)
@@ -294,6 +298,22 @@ std::vector<std::string> TableFile::texts(const std::string& table, const std::s
   out.reserve(pointers.size());
   for (const char* p : pointers) out.emplace_back(p ? p : "");
   H5Dvlen_reclaim(type, space, H5P_DEFAULT, pointers.data());
+  return out;
+}
+
+std::vector<std::string> TableFile::lists_of_texts(const std::string& table) const {
+  const Id object(file_->object(table), H5Oclose);
+  H5O_info_t about;
+  file_->require(H5Oget_info2(object, &about, H5O_INFO_NUM_ATTRS) >= 0, "is damaged; copy the file again");
+  std::vector<std::string> out;
+  for (hsize_t k = 0; k < about.num_attrs; ++k) {
+    const Id attribute(H5Aopen_by_idx(object, ".", H5_INDEX_NAME, H5_ITER_INC, k, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+    const Id type(H5Aget_type(attribute), H5Tclose), space(H5Aget_space(attribute), H5Sclose);
+    if (H5Tis_variable_str(type) <= 0 || H5Sget_simple_extent_type(space) != H5S_SIMPLE) continue;
+    std::string name(static_cast<std::size_t>(std::max<ssize_t>(0, H5Aget_name(attribute, 0, nullptr))), '\0');
+    H5Aget_name(attribute, name.size() + 1, name.data());
+    out.push_back(std::move(name));
+  }
   return out;
 }
 

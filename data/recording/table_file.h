@@ -49,7 +49,8 @@ class TableFile {
   /// Creates or replaces a text.
   void set_text(const std::string& name, const std::string& text);
   void set_number(const std::string& name, double number);  ///< creates it
-  /// Of a table, or, if that is "", of the file. An empty list is left out.
+  /// Of a table, or, if that is "", of the file. An empty list is left out; one of more than 4,000 texts is refused, as
+  /// HDF5 keeps 64 KiB in an attribute.
   void set_attribute(const std::string& table, const TableAttribute& attribute);
 
   bool has(const std::string& name) const;
@@ -58,6 +59,8 @@ class TableFile {
   std::vector<std::string> columns(const std::string& table) const { return texts(table, "columns"); }
   /// An attribute that is a list of texts, of a table or, if that is "", of the file; empty: there is none.
   std::vector<std::string> texts(const std::string& table, const std::string& attribute) const;
+  /// The names of such attributes.
+  std::vector<std::string> lists_of_texts(const std::string& table) const;
   std::vector<double> numbers(const std::string& table, std::size_t first, std::size_t count) const;
   std::vector<std::uint64_t> integers(const std::string& table, std::size_t first, std::size_t count) const;
   std::string text(const std::string& name) const;

@@ -393,4 +393,5 @@ expect 3 "no run of the sweep can be made" "$ostium" sweep "$folder/long.json" -
 expect 3 "FROM..TO" "$ostium" sweep rca-mid-focal --seeds 9..1 -o "$out/table.csv"
 expect 3 "has 0.1 twice" "$ostium" sweep rca-mid-focal --vary friction=0.1,0.2,0.1 -o "$out/table.csv"
 expect 3 "both give friction" "$ostium" sweep rca-mid-focal --set friction=0.2 --vary friction=0.1,0.3 -o "$out/table.csv"
+expect 3 "has nothing twice" "$ostium" sweep rca-mid-focal --vary wire=, -o "$out/table.csv"
 expect 3 "KEY=A,B,C" "$ostium" sweep rca-mid-focal --vary wire= -o "$out/table.csv"

@@ -90,6 +90,8 @@ refused "mine.json:3: inject: no tool is a catheter" run rca-mid-focal --script 
 # Nor did a balloon have to be in the body.
 script balloon '{ "do": "inflate", "gauge_atm": 3, "over_s": 1, "timeout_s": 2 }' balloon-20x10
 expect 1 "waiting for gauge_atm 3 (now no balloon is in the body)" "$ostium" run rca-mid-focal --script mine.json
+script balloon '{ "do": "deflate", "timeout_s": 2 }' balloon-20x10
+expect 1 "waiting for an empty balloon (no balloon is in the body)" "$ostium" run rca-mid-focal --script mine.json
 script person '{ "do": "wait", "until": [{ "seconds": 1 }] }'
 refused "mine.json:2: a tool is called person" run rca-mid-focal --script mine.json
 

@@ -75,6 +75,16 @@ rank 1 4 OMPI_COMM_WORLD_RANK=0 OMPI_COMM_WORLD_SIZE=4 SLURM_PROCID=3 SLURM_NTAS
 rank 3 4 PMI_RANK=2 PMI_SIZE=4
 expect 0 "8 runs of 4 parts" "$ostium" sweep --merge auto.csv
 cmp one.csv auto.csv
+# A line says itself what it is of; line ends of another editor are none of it.
+for part in 1 2 3 4; do cp auto.csv.part-$part-of-4 edited.csv.part-$part-of-4; done
+sed -i 's/$/\r/' edited.csv.part-1-of-4
+expect 0 "8 runs of 4 parts" "$ostium" sweep --merge edited.csv
+cmp one.csv edited.csv
+sed -i '2s/iliac-wire,/iliac-wire,9/' edited.csv.part-1-of-4
+expect 3 "edited.csv.part-1-of-4: the line of run .* is of another" "$ostium" sweep --merge edited.csv
+cp auto.csv.part-1-of-4 edited.csv.part-1-of-4
+sed -i '2s/$/,9/' edited.csv.part-1-of-4
+expect 3 "has another number of columns" "$ostium" sweep --merge edited.csv
 # A batch script is one process, whatever its steps will have.
 rank 1 1 SLURM_ARRAY_TASK_ID=0 SLURM_ARRAY_TASK_MIN=0 SLURM_ARRAY_TASK_COUNT=1 SLURM_PROCID=0 SLURM_NTASKS=8
 if command -v mpirun >/dev/null; then
@@ -94,6 +104,10 @@ expect 0 "bit for bit" "$ostium" replay kept/5-b.stl--1/run.h5 --verify
 expect 0 '"outcome": "aborted"' cat kept/2-a.stl--2/metrics.json
 expect 0 "8 runs" sweep -o events.csv --keep events
 (($(stat -c %s events/1-*/run.h5) < $(stat -c %s kept/1-*/run.h5)))
+# Runs of before that have none are made again.
+expect 0 "part-2-of-2:" sweep -o later.csv --part 2/2
+expect 0 "part-2-of-2:" sweep -o later.csv --part 2/2 --resume --keep later
+(($(find later -name run.h5 | wc -l) > 0))
 ln -s /proc/nowhere nowhere
 expect 1 "cannot be made" sweep -o lost.csv --keep nowhere/kept
 

@@ -6,6 +6,7 @@ import gc
 import multiprocessing
 import pickle
 import resource
+import signal
 import threading
 from pathlib import Path
 
@@ -282,6 +283,28 @@ def test_a_vessel_is_saved_and_read(tmp_path, vessel):
     np.savez(tmp_path / "other.npz", a=1)
     with pytest.raises(ValueError, match="is no vessel"):
         ostium.Vessel.load(tmp_path / "other.npz")
+    good = (tmp_path / "vessel.npz").read_bytes()
+    for at in range(0, len(good), 97):  # read as it was, or refused with the file's name
+        (tmp_path / "bad.npz").write_bytes(good[:at] + bytes([good[at] ^ 0x55]) + good[at + 1:])
+        try:
+            assert ostium.Vessel.load(tmp_path / "bad.npz").key == vessel.key
+        except (ValueError, ostium.OstiumError) as refusal:
+            assert "bad.npz" in str(refusal)
+
+
+def test_a_vessel_that_cannot_be_written_leaves_what_was_there(tmp_path, vessel):
+    vessel.save(tmp_path / "vessel.npz")
+    before, limits = (tmp_path / "vessel.npz").read_bytes(), resource.getrlimit(resource.RLIMIT_FSIZE)
+    ignored = signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (1024, limits[1]))
+    try:
+        with pytest.raises(OSError):
+            vessel.save(tmp_path / "vessel.npz")
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, limits)
+        signal.signal(signal.SIGXFSZ, ignored)
+    assert (tmp_path / "vessel.npz").read_bytes() == before
+    assert [file.name for file in tmp_path.iterdir()] == ["vessel.npz"]
 
 
 def test_ways_along_the_tree(vessel):

@@ -139,7 +139,12 @@ int run(const Arguments& a) {
   Measurement at(a.serial);
   std::string problem;
   device::Calibration c = calibration_of(at.port(), problem);
-  if (from_file) c = *from_file;
+  if (from_file) {
+    if (const std::string& own = at.port().identity().serial; from_file->serial != own)
+      throw data::LoadError(fmt::format("{}: serial is \"{}\"; expected \"{}\", the box that is plugged in", a.write,
+                                        from_file->serial, own));
+    c = *from_file;
+  }
   change_track(at, a, c);
   change_pressure(at, a, c);
   change_flow(at, a, c);

@@ -11,11 +11,13 @@ namespace ostium::app {
 
 namespace {
 
+/// Throws LoadError where nobody can press it any more.
 bool enter_pressed() {
   pollfd in{STDIN_FILENO, POLLIN, 0};
   if (::poll(&in, 1, 0) <= 0) return false;
   char some[256];
-  return ::read(STDIN_FILENO, some, sizeof some) >= 0;
+  if (::read(STDIN_FILENO, some, sizeof some) > 0) return true;
+  throw data::LoadError("the input ended before Enter was pressed; nothing was written into the box");
 }
 
 }  // namespace
@@ -33,6 +35,11 @@ void Measurement::wait(const std::string& what, double seconds) {
   if (seconds <= 0) fmt::print(stderr, "{}, then press Enter\n", what);
   for (const double until = clock_s() + seconds; seconds > 0 ? clock_s() < until : !enter_pressed();)
     if (!port_.poll(0.02, *this).open) throw data::LoadError("the box was unplugged while it was measured");
+}
+
+double Measurement::mean(double sum) const {
+  if (samples_ == 0) throw data::LoadError("nothing was measured; press Enter a second later, or more");
+  return sum / samples_;
 }
 
 void Measurement::came(std::span<const std::uint8_t> bytes) {

@@ -15,7 +15,7 @@ class Measurement : private device::ReportSink {
 
   device::UsbPort& port() { return port_; }
 
-  /// Waits for Enter, or for that many seconds.
+  /// Waits for Enter, or for that many seconds. Throws LoadError if the input ends, or the box is unplugged.
   void wait(const std::string& what, double seconds);
 
   void begin() {
@@ -26,12 +26,14 @@ class Measurement : private device::ReportSink {
 
   std::int64_t insertion(std::size_t track) const { return insertion_[track]; }
   std::int64_t roll(std::size_t track) const { return roll_[track]; }
-  double mean_pressure() const { return pressure_ / samples_; }
-  double mean_flow() const { return flow_ / samples_; }
+  /// These throw LoadError if nothing came since.
+  double mean_pressure() const { return mean(pressure_); }
+  double mean_flow() const { return mean(flow_); }
   double elapsed_s() const { return elapsed_s_; }
 
  private:
   void came(std::span<const std::uint8_t> bytes) override;
+  double mean(double sum) const;
 
   device::UsbPort port_;
   device::PortState state_;

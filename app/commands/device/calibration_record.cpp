@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <chrono>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -27,6 +28,14 @@ const data::JsonObjectKeys record_keys{"calibration",
                                         {"pressure_offset_atm", true, a_number},
                                         {"mL_s_per_count", true, a_number},
                                         {"flow_offset_mL_s", true, a_number}}};
+
+/// 0 where it was never calibrated.
+bool is_day(std::uint32_t yyyymmdd) {
+  using namespace std::chrono;
+  return yyyymmdd == 0 ||
+         year_month_day(year(static_cast<int>(yyyymmdd / 10000)), month(yyyymmdd / 100 % 100), day(yyyymmdd % 100))
+             .ok();
+}
 
 /// The float as a double with the fewest digits that round to it.
 double short_number(float value) { return std::stod(fmt::format("{}", value)); }
@@ -57,7 +66,7 @@ device::Calibration read_calibration_record(const std::string& file) {
   device::Calibration c;
   c.serial = in.text("serial");
   const double date = in.not_negative("date");
-  if (date != std::floor(date) || date > 99991231) in.refuse("date");
+  if (date != std::floor(date) || date > 99991231 || !is_day(static_cast<std::uint32_t>(date))) in.refuse("date");
   c.date = static_cast<std::uint32_t>(date);
   if (in.list("tracks").size() != 4) in.refuse("tracks");
   for (std::size_t k = 0; k < 4; ++k) {

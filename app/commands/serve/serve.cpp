@@ -97,6 +97,13 @@ class Seated {
   Classroom* classroom_;
 };
 
+/// Branches and what a trainer noted belong to one recording, and are lost or misleading beside another.
+void require_no_sitting(const std::string& folder) {
+  for (const char* one : {"notes.json", "branch-2.h5"})
+    if (data::is_there(fs::path(folder) / one))
+      throw data::LoadError(fmt::format("{}: holds {} of another sitting; expected another folder", folder, one));
+}
+
 int run(const ServeArguments& a) {
   const Served served = serve(a);
   if (!served.problem.empty()) {
@@ -119,6 +126,7 @@ Served serve(const ServeArguments& arguments) {
   std::optional<PassingFolder> passing;
   if (a.folder.empty()) a.folder = passing.emplace().path();
   const FilledFolder filled(a.folder);
+  if (!passing && !a.resumes) require_no_sitting(a.folder);
   if (passing) leave_no_empty({a.folder});
   const auto vessel = build_vessel(setup, "serve");
   ScriptedRun session(setup, vessel);

@@ -48,6 +48,8 @@ JournalHead head_from(const std::string& file, const std::string& line) {
         head.part.of > most_parts || std::any_of(head.vessel_of.begin(), head.vessel_of.end(), beyond))
       throw data::LoadError("its numbers contradict each other");
     return head;
+  } catch (const nlohmann::json::exception&) {
+    throw data::LoadError(file + ": is no unfinished table of `ostium sweep`, or its first line is damaged; remove it");
   } catch (const std::exception& error) {
     throw data::LoadError(
         fmt::format("{}: is no unfinished table of `ostium sweep` ({}); remove it", file, error.what()));
@@ -87,7 +89,14 @@ StoredJournal read_journal(const std::string& file) {
     const auto [end, problem] = std::from_chars(line.data(), last, run);
     if (problem != std::errc() || run >= runs || end == last || *end != ' ')
       throw data::LoadError(file + " is damaged; remove it, and the sweep begins anew");
-    out.lines[run] = std::string(end + 1, last) + "\n";
+    std::string own(end + 1, last);
+    if (own.ends_with('\r')) own.pop_back();  // of an editor
+    if (!is_line_of(out.head.grid, run, own))
+      throw data::LoadError(fmt::format(
+          "{}: the line of run {} is of another case, script, seed or value, or has another number of columns; remove "
+          "it, and --resume makes the run again",
+          file, run));
+    out.lines[run] = own + "\n";
   }
   return out;
 }

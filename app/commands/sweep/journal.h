@@ -39,6 +39,8 @@ class SweepJournal {
   /// if `resume` finds a table and nothing to go on with; WriteError.
   SweepJournal(const std::string& file, const std::string& table, const JournalHead& head, bool resume);
   bool has(std::size_t run) const { return lines_.count(run) > 0; }
+  /// As if it was not done.
+  void forget(std::size_t run) { lines_.erase(run); }
   /// Throws WriteError.
   void add(std::size_t run, const std::string& line);
   std::size_t done() const { return lines_.size(); }

@@ -30,7 +30,8 @@ void require_distinct(std::vector<std::string> values, const std::string& option
     if (const std::optional<double> number = data::decimal(value)) value = fmt::format("{}", *number);
   std::ranges::sort(values);
   if (const auto twice = std::ranges::adjacent_find(values); twice != values.end())
-    throw data::LoadError(fmt::format("{} has {} twice; expected each once", option, *twice));
+    throw data::LoadError(
+        fmt::format("{} has {} twice; expected each once", option, twice->empty() ? "nothing" : *twice));
 }
 
 void read_values(const SweepArguments& a, SweepGrid& grid) {

@@ -14,6 +14,7 @@
 #include "app/commands/run/record_option.h"
 #include "app/commands/sweep/table.h"
 #include "data/formats/load_error.h"
+#include "data/formats/paths.h"
 #include "data/formats/write_file.h"
 
 namespace ostium::app {
@@ -45,8 +46,15 @@ Sweeper::Sweeper(const SweepArguments& arguments, const Sweep& sweep, const Jour
   for (std::size_t run = 0; run < part_of.size(); ++run) {
     if (part_of[run] != head.part.number) continue;
     ++runs_;
+    if (journal.has(run) && lacks_recording(run)) journal.forget(run);
     if (!journal.has(run)) mine_.push_back(run);
   }
+}
+
+/// What was done without --keep, or whose folder has gone, is run again.
+bool Sweeper::lacks_recording(std::size_t run) const {
+  return !arguments_.keep.empty() && !has_no_result(journal_.lines().at(run)) &&
+         !data::is_there(fs::path(arguments_.keep) / sweep_.grid.name_of(run));
 }
 
 void Sweeper::run() {

@@ -23,6 +23,7 @@ class Sweeper {
   std::size_t unkept() const { return unkept_; }  ///< runs whose recording ends early
 
  private:
+  bool lacks_recording(std::size_t run) const;
   /// Null if it cannot be built; its runs are then reported as aborted.
   std::shared_ptr<const Vessel> vessel_for(const RunSetup& setup, const std::vector<std::size_t>& open);
   void run_in(std::size_t vessel, const std::vector<std::size_t>& open);

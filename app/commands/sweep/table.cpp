@@ -26,6 +26,14 @@ std::string reason_of(std::string why) {
   return data::csv_field(why);
 }
 
+/// Commas outside quotes.
+std::ptrdiff_t commas_in(const std::string& line) {
+  std::ptrdiff_t count = 0;
+  bool quoted = false;
+  for (const char c : line) quoted ^= c == '"', count += c == ',' && !quoted;
+  return count;
+}
+
 std::string end_without_result() { return ",0.000" + std::string(data::metric_definitions().size() + 4, ',') + "\n"; }
 
 }  // namespace
@@ -40,6 +48,10 @@ std::string heading(const SweepGrid& grid) {
 
 std::string line_without_result(const SweepGrid& grid, std::size_t run, const std::string& why) {
   return beginning_of(grid, run) + ",aborted," + reason_of(why) + end_without_result();
+}
+
+bool is_line_of(const SweepGrid& grid, std::size_t run, const std::string& line) {
+  return line.starts_with(beginning_of(grid, run) + ",") && commas_in(line) == commas_in(heading(grid));
 }
 
 bool has_no_result(const std::string& line) { return line.ends_with(end_without_result()); }

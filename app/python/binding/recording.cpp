@@ -26,7 +26,14 @@ py::array_t<T> table(const std::vector<T>& numbers, std::size_t columns) {
   return py::array_t<T>({static_cast<py::ssize_t>(numbers.size()) / width, width}, numbers.data());
 }
 
-py::object from_json(const std::string& text) { return py::module_::import("json").attr("loads")(text); }
+py::object from_json(const std::string& text, const RecordingHandle& of) {
+  try {
+    return py::module_::import("json").attr("loads")(text);
+  } catch (const py::error_already_set& error) {
+    if (!error.matches(PyExc_ValueError)) throw;
+    throw data::LoadError(of.path() + ": is damaged; copy the file again");
+  }
+}
 
 /// Names by index, as the file has them.
 auto names_of(const char* of_table, const char* attribute) {
@@ -65,13 +72,13 @@ RecordingFile(path) raises OstiumError for a file that is damaged, or is none of
           .def_property_readonly("path", [](const RecordingHandle& self) { return self.path(); })
           .def_property_readonly("software", [](const RecordingHandle& self) { return self.software(); })
           .def_property_readonly(
-              "setup", [](const RecordingHandle& self) { return from_json(self.setup()); },
+              "setup", [](const RecordingHandle& self) { return from_json(self.setup(), self); },
               "dict: case, script, instruments, seed.")
           .def_property_readonly(
               "end",
               [](const RecordingHandle& self) -> py::object {
                 const auto end = self.end();
-                return end ? from_json(*end) : py::none();
+                return end ? from_json(*end, self) : py::none();
               },
               "dict: outcome, reason, metrics; None where the recording was cut off.")
           .def_property_readonly("step_s", [](const RecordingHandle& self) { return self.step_s(); })

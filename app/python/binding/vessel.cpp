@@ -130,6 +130,9 @@ std::shared_ptr<VesselHandle> from_recipe(const py::tuple& r) {
   s.person = r[2].cast<std::optional<std::uint64_t>>();
   const auto vertices = r[3].cast<Points>();
   const auto triangles = r[4].cast<Triangles>();
+  constexpr double furthest_m = 1e3;
+  if (!(vertices.array().abs() <= furthest_m).all())
+    throw py::value_error("a vertex is not finite, or lies further away than a kilometre");
   for (Eigen::Index v = 0; v < vertices.rows(); ++v) s.mesh.vertices.emplace_back(vertices.row(v));
   for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
     const std::array<int, 3> one = {triangles(t, 0), triangles(t, 1), triangles(t, 2)};

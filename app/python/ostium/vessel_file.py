@@ -1,5 +1,11 @@
 """Vessels as files: what one is made from, so that it is the same in another place."""
 
+import io
+import os
+import zipfile
+import zlib
+from pathlib import Path
+
 import numpy as np
 
 from ._ostium import Vessel
@@ -11,20 +17,41 @@ def save(self, path):
     """Writes what this vessel is made from, a mesh included: NAME.npz. `Vessel.load` makes it again."""
     recipe = dict(zip(_NAMES, self.__getstate__()))
     recipe["person"] = -1 if recipe["person"] is None else recipe["person"]
-    with open(path, "wb") as file:
-        np.savez_compressed(file, format="ostium-vessel/1", **recipe)
+    packed = io.BytesIO()
+    np.savez_compressed(packed, format="ostium-vessel/1", **recipe)
+    place = Path(os.path.realpath(path))
+    if place.exists() and not place.is_file():  # a device, a pipe: written as it is
+        place.write_bytes(packed.getvalue())
+        return
+    # What was there stays until all of the new one is written.
+    unfinished = place.with_name(place.name + ".unfinished")
+    try:
+        with open(unfinished, "wb") as file:
+            file.write(packed.getvalue())
+            file.flush()
+            os.fsync(file.fileno())
+        os.replace(unfinished, place)
+    except OSError:
+        unfinished.unlink(missing_ok=True)
+        raise
 
 
 def load(path):
-    """A vessel that `save` wrote. Raises ValueError for another file."""
-    with np.load(path, allow_pickle=False) as file:
-        if not {"format", *_NAMES} <= set(file.files) or str(file["format"]) != "ostium-vessel/1":
-            raise ValueError(f"{path}: is no vessel; expected a file of Vessel.save")
-        person = int(file["person"])
+    """A vessel that `save` wrote. Raises ValueError for another file, or one that is damaged."""
+    packed = Path(path).read_bytes()
+    try:
+        with np.load(io.BytesIO(packed), allow_pickle=False) as file:
+            if not {"format", *_NAMES} <= set(file.files) or str(file["format"]) != "ostium-vessel/1":
+                raise ValueError("another file")
+            person = int(file["person"])
+            recipe = (str(file["vessel"]), str(file["case"]), None if person < 0 else person,
+                      *(file[name] for name in _NAMES[3:]))
         vessel = Vessel.__new__(Vessel)
-        vessel.__setstate__((str(file["vessel"]), str(file["case"]), None if person < 0 else person,
-                             file["vertices"], file["triangles"], file["entry"], file["towards"]))
-    return vessel
+        vessel.__setstate__(recipe)
+        return vessel
+    except (ValueError, TypeError, EOFError, OSError, NotImplementedError, RuntimeError, zipfile.BadZipFile,
+            zlib.error) as error:
+        raise ValueError(f"{path}: is no vessel, or is damaged; expected a file of Vessel.save") from error
 
 
 Vessel.save, Vessel.load = save, staticmethod(load)  # type: ignore[method-assign, assignment]

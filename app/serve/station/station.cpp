@@ -108,7 +108,7 @@ void Station::follow() {
     const Snapshot& now = latest.front();
     const double second = seconds(run_.model, now.state);
     hands_ = static_cast<int>(now.hands);
-    now_s_ = second;
+    now_s_ = second, furthest_s_ = std::max(furthest_s_.load(), second);
     if (now.begun != begun) begun = now.begun, truth_s = told_s = -1;
     const bool paused_again = now.paused && clock - told_at < 100ms;
     if (!paused_again && live.look(now, fresh) && !live.picture().grey.empty())
@@ -222,9 +222,9 @@ void Station::gone_back(std::size_t second, const std::string& recording) {
     // Numbers go on, so that nothing is taken for something told before.
     for (TimelineEntry& moment : moments_)
       if (moment.second > limit) moment.words.clear();
-    for (const std::string& text : unplaced_notes_) notes_.push_back({recording_, now_s_, text});
+    for (const std::string& text : unplaced_notes_) notes_.push_back({recording_, furthest_s_, text});
     unplaced_notes_.clear();
-    recording_ = recording;
+    recording_ = recording, furthest_s_ = limit;
     has_ended_ = false, end_.clear(), report_.clear();
     sticky_.push_back(message);
   }

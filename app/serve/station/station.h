@@ -98,8 +98,8 @@ class Station : public Listener {
   core::Ring<SessionEvent, 4096> heard_;
   std::atomic<bool> over_{false};
   std::atomic<int> hands_{0};
-  std::atomic<double> now_s_{0};
-  mutable std::mutex mutex_;  ///< of what follows; never taken by the thread that steps
+  std::atomic<double> now_s_{0}, furthest_s_{0};  ///< the second that is, and the last one of this recording
+  mutable std::mutex mutex_;                      ///< of what follows; never taken by the thread that steps
   std::condition_variable asked_;
   std::vector<TimelineEntry> moments_;
   std::vector<SessionEvent> events_;

@@ -60,14 +60,16 @@ bool inflates(const Step& step, const SessionState& session, int nth) {
   return is_about(step, session, nth) && balloon_in_body(session.coupling, session.treatment, {}, nth);
 }
 
-bool all_show(const Step& step, const ConditionEvaluator& e) {
-  bool any = false;
+bool any_inflates(const Step& step, const SessionState& session) {
   for (int nth = 0; nth < vascular::most_balloons; ++nth)
-    if (inflates(step, e.session, nth)) {
-      if (e.state.gauge_Pa[nth] != step.gauge_Pa) return false;
-      any = true;
-    }
-  return any;
+    if (inflates(step, session, nth)) return true;
+  return false;
+}
+
+bool all_show(const Step& step, const ConditionEvaluator& e) {
+  for (int nth = 0; nth < vascular::most_balloons; ++nth)
+    if (inflates(step, e.session, nth) && e.state.gauge_Pa[nth] != step.gauge_Pa) return false;
+  return any_inflates(step, e.session);
 }
 
 void draw_back(const Step& step, const SessionState& session, OperatorState& state) {
@@ -114,7 +116,8 @@ constexpr Handling handlings[] = {
      .is_over = all_show},
     {.action = data::ScriptAction::deflate,
      .begin = draw_back,
-     .is_over = [](const Step&, const ConditionEvaluator& e) { return e.balloons_are_empty(); }},
+     .is_over = [](const Step& step,
+                   const ConditionEvaluator& e) { return any_inflates(step, e.session) && e.balloons_are_empty(); }},
     {.action = data::ScriptAction::drug, .begin = give_drug},
     {.action = data::ScriptAction::give,
      .begin = [](const Step& step, const SessionState&, OperatorState& state) { state.given.drug_dose = step.dose; }},
@@ -215,7 +218,7 @@ std::string end_of_action(const data::ScriptStep& step, const ConditionEvaluator
                        (handling(step).moved_m3(e.session) - e.state.began_moved_m3) / units::mL);
   if (step.action == data::ScriptAction::inflate)
     return fmt::format("gauge_atm {:g} (now {})", step.gauge_Pa / vacuum_Pa, gauges(step, e));
-  return "an empty balloon";
+  return any_inflates(step, e.session) ? "an empty balloon" : "an empty balloon (no balloon is in the body)";
 }
 
 }  // namespace ostium::app

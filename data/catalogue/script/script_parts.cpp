@@ -19,7 +19,7 @@ constexpr int deepest_script = 8;
 
 /// Far beyond what a procedure needs. Parts of parts multiply, so depth alone would be no limit.
 constexpr int most_parts = 1000;
-constexpr std::size_t most_steps = 10'000;
+constexpr std::size_t most_steps = 4'000;  // a recording keeps no more names
 
 JsonValue* member(JsonValue& object, const std::string& key) {
   for (auto& [name, value] : object.members)
@@ -79,6 +79,12 @@ void say_in_steps(const JsonObject& step, JsonValue& part) {
   }
 }
 
+void require_few(std::size_t steps, const JsonValue& last) {
+  if (steps > most_steps)
+    last.fail(
+        fmt::format("{}: the script stands for more than {} steps; expected fewer: split it", last.path(), most_steps));
+}
+
 /// Substitutes the values of `file`, overridden by those of `given`; then expands its parts. `parts` counts them.
 bool write_out(JsonValue& file, const JsonValue* given, int depth, int& parts) {
   bool any = write_out_values(file, given);
@@ -117,10 +123,9 @@ bool write_out(JsonValue& file, const JsonValue* given, int depth, int& parts) {
         value.fail(fmt::format("{}: {} moves a tool \"{}\", and this script has none", value.path(),
                                step.text("script"), name));
     for (JsonValue& one : member(part, "steps")->items) steps.push_back(std::move(one));
-    if (steps.size() > most_steps)
-      value.fail(fmt::format("{}: the script stands for more than {} steps; expected fewer: split it", value.path(),
-                             most_steps));
+    require_few(steps.size(), value);
   }
+  if (!steps.empty()) require_few(steps.size(), root.list("steps").back());
   if (any) member(file, "steps")->items = std::move(steps);
   return any;
 }

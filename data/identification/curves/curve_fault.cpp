@@ -172,6 +172,13 @@ bool multiply_all(JsonValue& root, const std::string& key, double factor) {
   return with == runs.size();
 }
 
+/// Who has two columns in another unit has their noise in it, too.
+void multiply_noise(JsonValue& root, const std::vector<std::string>& keys, double factor) {
+  for (auto& [name, noise] : root.members)
+    for (auto& [key, value] : noise.members)
+      if (name == "noise" && numeric(value) && std::ranges::find(keys, key) != keys.end()) multiply(value, factor);
+}
+
 /// What was measured sample by sample: the columns of the first run.
 std::vector<std::string> columns_of(const JsonValue& root) {
   std::vector<std::string> out;
@@ -202,6 +209,7 @@ std::vector<Fault> mends_of_all(const JsonValue& root) {
     JsonValue copy = root;
     bool all = true;
     for (const std::string& key : keys) all = multiply_all(copy, key, factor) && all;
+    if (keys.size() > 1) multiply_noise(copy, keys, std::fabs(factor));
     const std::size_t before = out.size();
     if (all) add({id, ids, what, mend, nullptr, nullptr, 0, {}}, copy, out);
     if (out.size() == before) return;
@@ -210,10 +218,15 @@ std::vector<Fault> mends_of_all(const JsonValue& root) {
   };
   for (std::size_t i = 0; i < columns.size(); ++i) {
     const std::string& key = columns[i];
-    for (const OtherUnit& unit : other_units)
-      if (in_unit(key, unit.suffix) && unit.factor != 1)
-        try_one("unit_error", {key}, unit.factor, fmt::format("{} of all runs is in {}", key, unit.name),
-                fmt::format("multiply by {:g}", unit.factor));
+    for (const OtherUnit& unit : other_units) {
+      if (!in_unit(key, unit.suffix) || unit.factor == 1) continue;
+      const std::string mend = fmt::format("multiply by {:g}", unit.factor);
+      try_one("unit_error", {key}, unit.factor, fmt::format("{} of all runs is in {}", key, unit.name), mend);
+      for (std::size_t j = i + 1; j < columns.size(); ++j)
+        if (in_unit(columns[j], unit.suffix))
+          try_one("unit_error", {key, columns[j]}, unit.factor,
+                  fmt::format("{} and {} of all runs are in {}", key, columns[j], unit.name), mend);
+    }
     try_one("sign_error", {key}, -1, fmt::format("{} of all runs has the other sign", key), "multiply by -1");
     for (std::size_t j = i + 1; j < columns.size(); ++j)
       try_one("sign_error", {key, columns[j]}, -1,

@@ -138,7 +138,16 @@ std::string kind_of(const JsonValue& file) {
   return schema && kind && schema->text == "ostium-measurement/2" ? kind->text : "";
 }
 
+/// Before its keys, which differ by version.
+void require_known_version(const JsonValue& file) {
+  const JsonValue* schema = file.find("schema");
+  if (!schema || schema->type != JsonValue::Type::text) return;  // told by the key table
+  if (schema->text != "ostium-measurement/1" && schema->text != "ostium-measurement/2")
+    schema->refuse("\"ostium-measurement/1\", or \"ostium-measurement/2\" with a kind");
+}
+
 MeasurementSet read(const JsonValue& file) {
+  require_known_version(file);
   if (kind_of(file) == "projections") return read_projections(file);
   const JsonObject root(file, measurement_keys::set);
   MeasurementSet set;

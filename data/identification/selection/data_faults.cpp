@@ -16,7 +16,7 @@ namespace ostium::data {
 
 namespace {
 
-using units::mm, units::degree, units::pi;
+using units::degree;
 
 constexpr std::size_t fewest_experiments = 5;  // one of fewer is a quarter of all that is known
 constexpr std::size_t suspects = 3;            // the worst fitted
@@ -184,9 +184,9 @@ class FaultFinder {
                        {e.id},
                        "a quantity of " + e.id + " is in another unit",
                        mend.words,
-                       fmt::format("the others predict it {:.2g} mm off as it is written and {:.2g} mm off in that "
+                       fmt::format("the others predict it {:.2g} {} off as it is written and {:.2g} {} off in that "
                                    "unit, with no number fitted",
-                                   off / mm, now / mm)}};
+                                   off / unit_.size, unit_.name, now / unit_.size, unit_.name)}};
     }
     return best;
   }
@@ -199,15 +199,16 @@ class FaultFinder {
           {id},
           id + " is not as the others are",
           "it is left out; measure it again",
-          fmt::format("the others, which are {:.2g} mm off at most, predict it {:.2g} mm off; no effect that acts on "
+          fmt::format("the others, which are {:.2g} {} off at most, predict it {:.2g} {} off; no effect that acts on "
                       "all of them, no other unit and no exchange explains it",
-                      others / mm, off / mm)}},
+                      others / unit_.size, unit_.name, off / unit_.size, unit_.name)}},
         true};
   }
 
   static constexpr int few_starts = 2;
 
   const MeasurementSet& set_;
+  const MisfitUnit unit_ = set_.unit();
   const Workers& workers_;
   const FittedModel& declared_;
   const Noise& noise_;

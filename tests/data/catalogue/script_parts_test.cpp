@@ -211,7 +211,9 @@ TEST(ScriptParts, PartsOfPartsAreCounted) {
   const auto refusal = [&] { return refusal_of([&] { load_script((folder.path / "whole.json").string()); }); };
   folder.write("some.json", named("some", R"({ "do": "wait", "until": [{ "seconds": 1 }] })", 200));
   folder.write("whole.json", named("whole", R"({ "do": "script", "script": "some" })", 51));
-  expect_words(refusal(), {"whole.json:1: steps[50]", "more than 10000 steps"});
+  expect_words(refusal(), {"whole.json:1: steps[20]", "more than 4000 steps"});
+  folder.write("whole.json", named("whole", R"({ "do": "mark" })", 4001));
+  expect_words(refusal(), {"whole.json:1: steps[4000]", "more than 4000 steps"});
   // 32 x 32 parts, the innermost of one step.
   folder.write("one.json", named("one", R"({ "do": "wait", "until": [{ "seconds": 1 }] })", 1));
   folder.write("many.json", named("many", R"({ "do": "script", "script": "one" })", 32));

@@ -105,6 +105,13 @@ TEST(Curves, AColumnOfAllRunsInAnotherUnitOrOfTheOtherSignIsNamed) {
   }
 }
 
+TEST(Curves, TwoColumnsInAnotherUnitAreNamedTogether) {
+  const CurveExplanation x = explained(made("torque_response", "fault:both_radians", 0, 101).json);
+  EXPECT_EQ(to_string(x.verdict), "effect");
+  ASSERT_TRUE(x.best().fault);
+  EXPECT_EQ(x.best().fault->what, "proximal_deg and distal_deg of all runs are in radians");
+}
+
 TEST(Curves, ABeamOfSmallDeflectionIsEulersOwn) {
   three_point_bend::Setup setup;
   setup.EI_N_m2 = {40e-6}, setup.radius_m = 0.18e-3;

@@ -88,6 +88,8 @@ TEST(Measurement, KeysUnknownMissingOrTooMany) {
   file = good();
   file["schema"] = "ostium-measurement/2";
   expect_words(set_refusal(file), {"schema is", "ostium-measurement/1"});
+  file["schema"] = "ostium-measurement/3", file["kind"] = "push_pull";
+  expect_words(set_refusal(file), {"schema is \"ostium-measurement/3\"", "\"ostium-measurement/2\" with a kind"});
   file = good();
   file["experiments"][0]["set"].erase(1);
   expect_words(set_refusal(file), {"experiments[0].set is", "one entry for each of 2 instruments, got 1"});

@@ -27,9 +27,14 @@ expect 0 '"pressure_offset_atm": 0.25' plugged "$ostium" device calibrate --writ
 expect 0 "written to" plugged "$ostium" device calibrate --pressure-zero --seconds 0.3
 expect 0 '"mm_per_count": 0\.0' plugged "$ostium" device calibrate --track 2 --length 60 --seconds 2 --dry-run
 expect 3 "at least 100" plugged "$ostium" device calibrate --track 4 --length 60 --seconds 0.2
+expect 3 "the input ended before Enter" plugged "$ostium" device calibrate --track 2 --length 60 </dev/null
 expect 3 "track 1 to 4" plugged "$ostium" device calibrate --length 60
 sed 's/"tracks"/"trakcs"/' "$dir/record.json" >"$dir/wrong.json"
 expect 3 "wrong.json:[0-9]*: .*trakcs" plugged "$ostium" device calibrate --write "$dir/wrong.json"
+sed 's/OST-0001/OST-0002/' "$dir/record.json" >"$dir/other.json"
+expect 3 'serial is "OST-0002"; expected "OST-0001"' plugged "$ostium" device calibrate --write "$dir/other.json"
+sed 's/"date": [0-9]*/"date": 20261399/' "$dir/record.json" >"$dir/day.json"
+expect 3 "date is 20261399" plugged "$ostium" device calibrate --write "$dir/day.json"
 sed 's/"mm_per_count": 0.01/"mm_per_count": 0/' "$dir/record.json" >"$dir/zero.json"
 expect 3 "mm per count is 0" plugged "$ostium" device calibrate --write "$dir/zero.json"
 

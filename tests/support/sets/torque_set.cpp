@@ -145,8 +145,11 @@ Bent bend(Dice& dice, double at, double radius, double angle) {
   return {at, radius, radius * angle, EI / radius * std::sqrt(2 / (3 * radius * gap)) * dice.uniform(0.9, 1.1)};
 }
 
-/// A straight path, one bend, two and a loop, each turned both ways and back.
-std::vector<Path> design(Dice& dice) {
+/// Turned so far that a reader cannot tell by the numbers alone.
+constexpr const char* both_in_radians = "fault:both_radians";
+
+/// A straight path, one bend, two and a loop, each turned both ways and back, `as_far` as a bench mostly does.
+std::vector<Path> design(Dice& dice, double as_far) {
   const std::vector<Bent> one = {bend(dice, dice.uniform(350, 450), dice.uniform(20, 35), 1.57)},
                           two = {bend(dice, dice.uniform(200, 300), dice.uniform(30, 50), 1.57),
                                  bend(dice, dice.uniform(550, 650), dice.uniform(20, 35), dice.uniform(1, 2.4))},
@@ -154,8 +157,8 @@ std::vector<Path> design(Dice& dice) {
   std::vector<Path> out;
   const auto add = [&](const std::string& name, const std::vector<Bent>& bends, double side, double most) {
     Path p{name, bends, {}};
-    for (double at = 0; at < most; at += 12) p.drive_deg.push_back(side * at);
-    for (double at = most; at >= 0; at -= 12) p.drive_deg.push_back(side * at);
+    for (double at = 0; at < most * as_far; at += 12) p.drive_deg.push_back(side * at);
+    for (double at = most * as_far; at >= 0; at -= 12) p.drive_deg.push_back(side * at);
     out.push_back(p);
   };
   add("straight", {}, 1, 360);
@@ -203,6 +206,10 @@ void spoil(const std::string& content, Dice& dice, Json& runs, BenchSet& out) {
   out.effects = {"unit_error"};
   if (content == "fault:radians") scaled("distal_deg", to_rad);
   if (content == "fault:turned_radians") scaled("proximal_deg", to_rad);
+  if (content == both_in_radians)
+    for (Json& run : runs)
+      for (const char* key : {"proximal_deg", "distal_deg"})
+        for (Json& v : run[key]) v = v.get<double>() * to_rad;
   if (content == "fault:mN_m") scaled("torque_Nmm", 1e-3);
   if (content == "fault:swapped") {
     const std::size_t other = r % 2 ? r + 1 : r - 1;  // the other sense of the same path
@@ -225,7 +232,7 @@ BenchSet make_of(const BenchWire* wire, const std::string& content, double size,
     plain = declared;
     plain.EI = wire->EI, plain.GJ = plain.tip_GJ = wire->GJ, plain.friction = wire->friction;
   }
-  const std::vector<Path> paths = design(dice);
+  const std::vector<Path> paths = design(dice, content == both_in_radians ? 2 : 1);
   const double distal_noise = dice.uniform(1, 2), torque_noise = 0.002 * dice.log_uniform(0.5, 1.5);
   std::vector<Measured> measured = measure(plain, paths);
   BenchSet out;
@@ -292,7 +299,8 @@ BenchSet make_of(const BenchWire* wire, const std::string& content, double size,
          {"sections", sections}}}},
       {"rig", {{"friction", declared.friction}, {"lumen_clearance_mm", 0.1}}},
       {"noise",
-       {{"distal_deg", distal_noise * noise.declared_share()}, {"torque_Nmm", torque_noise * noise.declared_share()}}},
+       {{"distal_deg", distal_noise * noise.declared_share() * (content == both_in_radians ? to_rad : 1)},
+        {"torque_Nmm", torque_noise * noise.declared_share()}}},
       {"runs", runs}};
   out.json = file.dump();
   return out;

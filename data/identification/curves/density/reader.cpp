@@ -135,10 +135,8 @@ curves::Channel read_site(const JsonObject& entry, std::size_t s, const Setup& s
     list.fail(fmt::format("{} has {} numbers; expected {}, as time_s has", list.path(), list.items.size(),
                           film.time_s.size()));
   out.measured.resize(film.time_s.size());
-  for (std::size_t i = 0; i < list.items.size(); ++i) {
-    if (list.items[i].type != JsonValue::Type::number) list.items[i].refuse("a number");
-    out.measured[static_cast<Eigen::Index>(i)] = list.items[i].number;
-  }
+  for (std::size_t i = 0; i < list.items.size(); ++i)
+    out.measured[static_cast<Eigen::Index>(i)] = curves::sample(list.items[i]);
   const double most = near_peak * setup.m2_per_kg * film.injection.iodine_kg_m3 * area_m2(setup, setup.site_m[k]) / mm;
   for (std::size_t i = 0; i < list.items.size() && !view.linear; ++i)
     if (list.items[i].number > most)

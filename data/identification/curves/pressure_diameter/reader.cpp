@@ -104,7 +104,7 @@ VectorXd read_diameters(const JsonValue& list, const Inflation& run) {
   for (std::size_t k = 0; k < list.items.size(); ++k) {
     if (list.items[k].type != JsonValue::Type::number || !(list.items[k].number > 0))
       list.items[k].refuse("a diameter in mm, > 0");
-    out[static_cast<Eigen::Index>(k)] = list.items[k].number;
+    out[static_cast<Eigen::Index>(k)] = curves::sample(list.items[k]);
   }
   return out;
 }

@@ -52,14 +52,16 @@ const JsonValue& samples(const JsonObject& run, const std::string& key) {
   return run[key];
 }
 
+double sample(const JsonValue& value) {
+  if (value.type != JsonValue::Type::number) value.refuse("a number");
+  if (!(std::fabs(value.number) <= 1e12)) value.refuse("a number up to 1e12");
+  return value.number;
+}
+
 Eigen::VectorXd read_samples(const JsonObject& run, const std::string& key, Eigen::Index least) {
   const std::vector<JsonValue>& list = samples(run, key).items;
   Eigen::VectorXd out(static_cast<Eigen::Index>(list.size()));
-  for (std::size_t k = 0; k < list.size(); ++k) {
-    if (list[k].type != JsonValue::Type::number) list[k].refuse("a number");
-    if (!(std::fabs(list[k].number) <= 1e12)) list[k].refuse("a number up to 1e12");
-    out[static_cast<Eigen::Index>(k)] = list[k].number;
-  }
+  for (std::size_t k = 0; k < list.size(); ++k) out[static_cast<Eigen::Index>(k)] = sample(list[k]);
   if (out.size() < least)
     run[key].fail(fmt::format("{} has {} numbers; expected at least {}", run[key].path(), out.size(), least));
   return out;

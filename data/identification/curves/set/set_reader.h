@@ -29,6 +29,8 @@ std::vector<MeasuredNumbers> measured_numbers(const std::vector<Run>& runs);
 
 /// A run's list, or LoadError if it has none.
 const JsonValue& samples(const JsonObject& run, const std::string& key);
+/// A number of a list, up to 1e12 as all numbers of files are; LoadError.
+double sample(const JsonValue& value);
 /// Numbers of one key, all finite, at least `least` of them.
 Eigen::VectorXd read_samples(const JsonObject& run, const std::string& key, Eigen::Index least = 4);
 /// The same, as many as `of` has.
