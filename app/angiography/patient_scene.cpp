@@ -1,9 +1,20 @@
 #include "app/angiography/patient_scene.h"
 
 #include "app/angiography/xray_body.h"
+#include "data/formats/load_error.h"
 #include "vascular/motion/heart_cycle.h"
 
 namespace ostium::app {
+
+vascular::PhysiologyModel circulation_of(const vascular::Patient& patient, const std::string& name,
+                                         std::uint64_t seed) {
+  vascular::PhysiologyModel model = make_physiology(patient, seed);
+  if (model.flow.tree.cells.empty())
+    throw data::LoadError(name +
+                          ": no coronary artery leaves an aorta in it, so no blood flows; expected a case that has "
+                          "both. `ostium run` and `frame` take it as it is");
+  return model;
+}
 
 PatientScene::PatientScene(const vascular::Patient& patient, const vascular::PhysiologyModel& physiology, bool breathes)
     : patient_(patient),

@@ -12,6 +12,9 @@
 
 namespace ostium::app {
 
+/// Throws LoadError if no coronary artery leaves an aorta, as in an imported part of one: there is no flow then.
+vascular::PhysiologyModel circulation_of(const vascular::Patient& patient, const std::string& name, std::uint64_t seed);
+
 class PatientScene {
  public:
   /// Keeps references. Takes some seconds: the thorax is contoured. `breathes`: what only the breath moves is not drawn

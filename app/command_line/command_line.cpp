@@ -27,6 +27,21 @@
 
 namespace ostium::app {
 
+namespace {
+
+/// CLI11's own name the largest number there is, digit by digit.
+CLI::Validator from_zero(const char* name, bool zero_too) {
+  return CLI::Validator(
+      [zero_too](const std::string& text) -> std::string {
+        const std::optional<double> number = data::decimal(text);
+        if (number && (*number > 0 || (zero_too && *number == 0))) return "";
+        return text + (zero_too ? " is not 0 or more" : " is not above 0");
+      },
+      name);
+}
+
+}  // namespace
+
 Option Option::required() { return option_->required(), *this; }
 Option Option::show_default() { return option_->capture_default_str(), *this; }
 Option Option::type(const std::string& name) { return option_->type_name(name), *this; }
@@ -37,8 +52,8 @@ Option Option::one_of(std::initializer_list<const char*> allowed) {
 Option Option::one_of(const std::vector<int>& allowed) { return option_->check(CLI::IsMember(allowed)), *this; }
 Option Option::range(double least, double most) { return option_->check(CLI::Range(least, most)), *this; }
 Option Option::range(int least, int most) { return option_->check(CLI::Range(least, most)), *this; }
-Option Option::not_negative() { return option_->check(CLI::NonNegativeNumber), *this; }
-Option Option::positive() { return option_->check(CLI::PositiveNumber), *this; }
+Option Option::not_negative() { return option_->check(from_zero("NONNEGATIVE", true)), *this; }
+Option Option::positive() { return option_->check(from_zero("POSITIVE", false)), *this; }
 
 namespace {
 

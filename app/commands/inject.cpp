@@ -118,7 +118,7 @@ int run(const Arguments& a) {
   if (a.healthy) c.lesions.clear();
   show_progress("building " + c.name);
   const vascular::Patient patient = patient_of(c);
-  const vascular::PhysiologyModel model = make_physiology(patient, a.seed);
+  const vascular::PhysiologyModel model = circulation_of(patient, c.name, a.seed);
   PatientScene scene(patient, model);
   show_progress("the heart beats until blood flows as it does at rest");
   vascular::PhysiologyState state = at_rest(model, c.rate_1_min);

@@ -200,6 +200,8 @@ int make_film(const Arguments& a, Replay& replay, Json& told) {
 int check_same(const Arguments& a, Replay& replay, Json& told) {
   const double from_s = seconds(replay.model, replay.state);
   const VerifyReport report = verify(replay, show_share);
+  if (report.steps == 0 && from_s > 0)
+    throw data::LoadError(fmt::format("{}: no step comes after {:g} s; there is nothing to verify", a.file, from_s));
   show_progress("");
   told["from_s"] = from_s, told["steps"] = report.steps, told["same"] = !report.first_step;
   if (report.first_step)

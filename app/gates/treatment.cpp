@@ -151,7 +151,6 @@ std::vector<data::GateResult> treatment(bool quick) {
       const int i = t.model.stent_on[plan.stent];
       out.push_back(rides(patient, physiology, plan, t.model.stents[i], bed.state.stents[i], bed.state.wall,
                           bed.state.wall.radius_m));
-      if (quick) break;
     }
   }
   if (!quick)

@@ -16,17 +16,17 @@
 
 namespace {
 
-void limit(int resource, rlim_t most) {
-  const rlimit both{most, most};
+void limit(int resource, rlim_t most, rlim_t hard) {
+  const rlimit both{most, hard};
   setrlimit(static_cast<__rlimit_resource>(resource), &both);
 }
 
 void limit_us(rlim_t seconds) {
-  prctl(PR_SET_PDEATHSIG, SIGKILL);  // ends with whoever asked
-  limit(RLIMIT_CPU, seconds);
-  limit(RLIMIT_CORE, 0);
+  prctl(PR_SET_PDEATHSIG, SIGKILL);         // ends with whoever asked
+  limit(RLIMIT_CPU, seconds, seconds + 1);  // SIGXCPU comes before SIGKILL
+  limit(RLIMIT_CORE, 0, 0);
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // which take terabytes of addresses
-  limit(RLIMIT_AS, ostium::app::ReaderLimits::bytes);
+  limit(RLIMIT_AS, ostium::app::ReaderLimits::bytes, ostium::app::ReaderLimits::bytes);
 #endif
 }
 

@@ -70,7 +70,7 @@ void print_frames(const std::vector<Row>& rows) {
 
 }  // namespace
 
-int main(int argc, char** argv) {
+int main(int argc, char** argv) try {
   bool json = false, quick = false, growth_only = false, stretch_only = false, frames_only = false,
        physiology_only = false;
   double late_s = 0, soak_min = 0;
@@ -208,4 +208,7 @@ int main(int argc, char** argv) {
   }
   json ? print_json(rows, yardstick) : print_table(rows, yardstick);
   return 0;
+} catch (const std::exception& error) {
+  fmt::print(stderr, "ostium-bench: {}\n", error.what());
+  return 3;
 }

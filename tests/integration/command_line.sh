@@ -176,6 +176,12 @@ expect 3 "install libostium-openvdb.so beside ostium" env LD_LIBRARY_PATH="$dir/
 # It is no heart, unless somebody says so.
 expect 0 '"beats": false' "$ostium" import "$folder/marked.obj" -o "$folder/single" --motion none --json
 expect 0 '"beats": true' "$ostium" import "$folder/marked.obj" -o "$folder/single" --motion coronary --json
+# There is no circulation in it, which contrast and treatment need.
+for command in "inject" "treat --no-pictures"; do
+  expect 3 "no coronary artery leaves an aorta" "$ostium" $command "$folder/single"
+done
+expect 3 "this patient has no LM" frame "$folder/single" --fill left -o "$folder/filled.png"
+expect 0 "AP" frame "$folder/single" -o "$folder/empty.png"
 expect 2 "it is empty" "$ostium" import "$folder/marked.obj" -o ""
 expect 2 "it is empty" "$ostium" run ""
 # What is not an import's own is never lost to one.
@@ -272,7 +278,12 @@ expect 0 '"instrument"' "$ostium" scripts --json
 expect 0 "recorded in" "$ostium" run rca-mid-focal --script iliac-wire --out "$out"
 grep -q '"outcome": "success"' "$out/metrics.json"
 expect 0 "bit for bit" "$ostium" replay "$out/run.h5" --verify
-expect 0 '"same": true' "$ostium" replay "$out/run.h5" --from 1 --json
+expect 0 '"same": true' "$ostium" replay "$out/run.h5" --from 0.5 --json
+expect 3 "there is nothing to verify" "$ostium" replay "$out/run.h5" --from 1 --verify
+expect 2 "is not 0 or more" "$ostium" replay "$out/run.h5" --from=-1
+# The first picture of a film is of the view that the run had.
+expect 0 "8 frames" "$ostium" replay "$out/run.h5" --seconds 0.5 --pixels 64 --dicom "$out/film.dcm"
+[[ ! -e $out/film-2.dcm ]]
 expect 0 "moment.png" "$ostium" replay "$out/run.h5" --from 0.5 --view lao --pixels 128 --png "$out/moment.png"
 # One picture is of its moment, a film beside it or not; --json is JSON whatever is made.
 [[ $("$ostium" replay "$out/run.h5" --from 0.8 --pixels 64 --png "$out/alone.png") == *" at 0.800 s" ]]

@@ -339,7 +339,7 @@ class Import {
                                      "cross at end-systole",
                                      crossing)
                        : ""));
-    } else if (crossing > 0) {
+    } else if (crossing > vascular::check_surface(made_.patient.lumen.at(0, 0)).crossings.count) {
       const Eigen::Vector3d p = systole.crossings.where.front() / mm;
       made_.found.notes.push_back(
           fmt::format("at end-systole {} pairs of triangles cross, the first at {:.1f} {:.1f} {:.1f} mm of the patient "

@@ -27,7 +27,7 @@ std::string usual_view(const Plan& plan, const std::string& artery) {
 TreatmentRoom::TreatmentRoom(const data::Case& c, const TreatArguments& a)
     : arguments(a),
       patient(patient_of(c)),
-      physiology(make_physiology(patient, a.seed)),
+      physiology(circulation_of(patient, c.name, a.seed)),
       scene(patient, physiology),
       plan(plan_treatment(patient, physiology.flow, a.seed,
                           {.stent = !a.no_stent,

@@ -76,6 +76,13 @@ Replay::Replay(const std::string& file, std::shared_ptr<const Vessel> vessel)
   require_same_layout(recording, model);
   require_same_step(recording, model);
   inputs.tools.resize(model.tools.size());
+  look_at_inputs();
+}
+
+void Replay::look_at_inputs() {
+  if (recording.steps() == 0) return;
+  const std::size_t last = std::max<std::size_t>(state.rods.step, 1) - 1;
+  take_inputs(recording.inputs(last, 1).data(), inputs);
 }
 
 void require_within(const data::RecordingReader& recording, double second) {
@@ -108,6 +115,7 @@ void Replay::go_to(double second) {
   const double apart_s = recording.step_s() * data::steps_per_state;
   const std::size_t row = std::min(static_cast<std::size_t>(second / apart_s + 1e-9), recording.states() - 1);
   take_recorded_state(recording, model, setup.seed, row, state);
+  look_at_inputs();
 }
 
 void Replay::read_ahead() {

@@ -38,11 +38,12 @@ class Replay {
   const RunSetup setup;
   const SessionModel model;
   SessionState state;
-  SessionInputs inputs;  ///< of the last step
+  SessionInputs inputs;  ///< of the last step; before the first, of that
   SessionReport report;
   bool same = true;  ///< whether the last step's state matches the recording
 
  private:
+  void look_at_inputs();
   void read_ahead();
   SessionScratch scratch_;
   static constexpr std::size_t ahead = 2000;

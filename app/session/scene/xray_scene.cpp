@@ -1,11 +1,14 @@
 #include "app/session/scene/xray_scene.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "app/angiography/device_scene.h"
 #include "app/angiography/xray_body.h"
 #include "core/base/units.h"
 #include "core/rod/introducer.h"
+#include "data/formats/load_error.h"
 #include "fluoro/matter/tissue.h"
 #include "fluoro/phantom/shapes.h"
 #include "vascular/motion/heart_cycle.h"
@@ -197,7 +200,9 @@ XrayPatient::XrayPatient(std::shared_ptr<const vascular::Patient> patient, Fill 
 void XrayPatient::fill(Fill which) {
   const vascular::Anatomy& anatomy = patient_->anatomy;
   std::vector<bool> coronary(anatomy.tubes.size(), false);
-  const vascular::NamedBranch* trunk = find_branch(anatomy, which == Fill::left ? "LM" : "RCA");
+  const char* const name = which == Fill::left ? "LM" : "RCA";
+  const vascular::NamedBranch* trunk = find_branch(anatomy, name);
+  if (!trunk) throw data::LoadError(fmt::format("--fill: this patient has no {}, which would be filled", name));
   coronary[static_cast<std::size_t>(trunk->tube)] = true;
   for (std::size_t t = 0; t < anatomy.tubes.size(); ++t)
     if (anatomy.tubes[t].parent >= 0 && coronary[static_cast<std::size_t>(anatomy.tubes[t].parent)]) coronary[t] = true;

@@ -112,6 +112,17 @@ TEST(Curves, TwoColumnsInAnotherUnitAreNamedTogether) {
   EXPECT_EQ(x.best().fault->what, "proximal_deg and distal_deg of all runs are in radians");
 }
 
+TEST(Curves, SectionsThatOverlapAreRefused) {
+  auto file = nlohmann::ordered_json::parse(made("three_point_bend", "clean", 0, 101).json);
+  auto& sections = file["instruments"][0]["sections"];
+  auto second = sections.back();
+  second["from_tip_mm"][0] = second["from_tip_mm"][1].get<double>() - 1;
+  second["from_tip_mm"][1] = second["from_tip_mm"][1].get<double>() + 100;
+  sections.push_back(second);
+  expect_words(refusal_of([&] { curves::read_set(parse_json("set.json", file.dump())); }),
+               {"from_tip_mm", "where the one before it ends"});
+}
+
 TEST(Curves, ABeamOfSmallDeflectionIsEulersOwn) {
   three_point_bend::Setup setup;
   setup.EI_N_m2 = {40e-6}, setup.radius_m = 0.18e-3;

@@ -43,6 +43,14 @@ TEST(Narrowings, OneWithThreeTightPlacesIsOne) {
   EXPECT_NEAR(found[0].to_m, 58.4e-3, 0.6e-3);
 }
 
+TEST(Narrowings, AMildOneIsAsLongAsASevereOneOfItsShape) {
+  for (const double depth : {0.35, 0.7, 0.9}) {
+    const auto found = find_narrowings(branch_with([&](double s) { return 1.5 * (1 - depth * notch(s, 50, 6)); }));
+    ASSERT_EQ(found.size(), 1u);
+    EXPECT_NEAR(found[0].to_m - found[0].from_m, 6.5e-3, 1.1e-3) << depth;
+  }
+}
+
 TEST(Narrowings, ThreeDiametersApartTheyAreTwo) {
   const auto found =
       find_narrowings(branch_with([](double s) { return 1.5 * (1 - 0.6 * notch(s, 35, 4) - 0.5 * notch(s, 60, 4)); }));

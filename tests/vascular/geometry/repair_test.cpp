@@ -37,20 +37,44 @@ TEST(Repair, ATubeKeepsItsCalibre) {
   }
 }
 
+bool says(const RepairedMesh& repaired, const char* words) {
+  return std::ranges::any_of(repaired.notes, [&](const RepairNote& n) { return n.what.starts_with(words); });
+}
+
+/// A tube and another beside it, so far away.
+Mesh two(const Mesh& one, double apart) {
+  Mesh both = one;
+  const auto count = static_cast<int>(one.vertices.size());
+  for (const Eigen::Vector3d& p : one.vertices) both.vertices.push_back(p + Eigen::Vector3d(apart, 0, -1 * mm));
+  for (const auto& [a, b, c] : one.triangles) both.triangles.push_back({a + count, b + count, c + count});
+  return both;
+}
+
 /// Also where the first corner of one lies within the other.
 TEST(Repair, TubesThatTouchOrCrossAreJoinedAndItIsSaid) {
   for (const double apart : {3.9 * mm, 4 * mm, 4.1 * mm}) {
-    const Mesh one = test::tube(2 * mm, 30 * mm, 32, 20);
-    Mesh both = one;
-    const auto count = static_cast<int>(one.vertices.size());
-    for (const Eigen::Vector3d& p : one.vertices) both.vertices.push_back(p + Eigen::Vector3d(apart, 0, -1 * mm));
-    for (const auto& [a, b, c] : one.triangles) both.triangles.push_back({a + count, b + count, c + count});
-    const RepairedMesh repaired = repair_mesh(both);
+    const RepairedMesh repaired = repair_mesh(two(test::tube(2 * mm, 30 * mm, 32, 20), apart));
     EXPECT_EQ(repaired.lumens, 1);
-    EXPECT_TRUE(std::any_of(repaired.notes.begin(), repaired.notes.end(), [](const RepairNote& n) {
-      return n.what.starts_with("piece joined to another");
-    })) << apart / mm;
+    EXPECT_TRUE(says(repaired, "piece joined to another")) << apart / mm;
   }
+}
+
+TEST(Repair, TubesThatNearlyTouchDoNotCross) {
+  const RepairedMesh repaired = repair_mesh(two(test::tube(1.5 * mm, 60 * mm, 64, 120), 3.15 * mm));
+  EXPECT_EQ(repaired.lumens, 2);
+  EXPECT_EQ(check_surface(repaired.lumen).crossings.count, 0);
+}
+
+TEST(Repair, ANarrowingFinerThanTheGridCutsAndItIsSaid) {
+  Mesh tube = test::tube(1.5 * mm, 60 * mm, 64, 120);
+  for (Eigen::Vector3d& p : tube.vertices) {
+    const double x = std::min(1.0, std::fabs(p.z() - 30 * mm) / (6 * mm));
+    const double left = 1 - 0.97 * 0.5 * (1 + std::cos(units::pi * x));
+    p.x() *= left, p.y() *= left;
+  }
+  const RepairedMesh repaired = repair_mesh(tube);
+  EXPECT_EQ(repaired.lumens, 2);
+  EXPECT_TRUE(says(repaired, "vessel cut in two"));
 }
 
 /// The first 80 mm of the left coronary tree: left main and LAD, circumflex, a diagonal, from an aorta 30 mm long.

@@ -1,6 +1,7 @@
 #include "vascular/anatomy/labelling/narrowings.h"
 
 #include <algorithm>
+#include <iterator>
 
 namespace ostium::vascular {
 
@@ -22,12 +23,26 @@ double median_between(const TreeBranch& branch, double from, double to) {
   return radii[radii.size() / 2];
 }
 
+/// As far as half of its own depth, where that is less than what makes it a narrowing: a mild one is not short for
+/// that.
+void reach_half_depth(const TreeBranch& branch, double least, FoundNarrowing& found) {
+  const double edge_m = found.reference_m / 2 * (1 - std::min(least, found.stenosis / 2));
+  const auto& spheres = branch.spheres;
+  const auto narrowest = std::ranges::find(spheres, found.at_m, &TreeSphere::s_m);
+  const auto wide = [&](const TreeSphere& sphere) { return sphere.radius_m > edge_m; };
+  const auto behind = std::find_if(narrowest, spheres.end(), wide);
+  const auto before = std::find_if(std::make_reverse_iterator(narrowest), spheres.rend(), wide);
+  if (behind != spheres.end()) found.to_m = std::max(found.to_m, std::prev(behind)->s_m);
+  if (before != spheres.rend()) found.from_m = std::min(found.from_m, before.base()->s_m);
+}
+
 }  // namespace
 
 std::vector<FoundNarrowing> find_narrowings(const SphereTree& tree, double least) {
   std::vector<FoundNarrowing> found;
   for (const TreeBranch& branch : tree.branches) {
     const double length = branch.spheres.back().s_m;
+    const std::size_t before_it = found.size();
     double last_m = -1;  // where the branch was narrow last; < 0: nowhere yet
     for (const TreeSphere& sphere : branch.spheres) {
       const double before = median_between(branch, sphere.s_m - far_m, sphere.s_m - near_m);
@@ -52,6 +67,7 @@ std::vector<FoundNarrowing> find_narrowings(const SphereTree& tree, double least
       found.back().to_m = sphere.s_m;
       last_m = sphere.s_m;
     }
+    for (std::size_t i = before_it; i < found.size(); ++i) reach_half_depth(branch, least, found[i]);
   }
   return found;
 }

@@ -10,7 +10,7 @@ namespace ostium::vascular {
 struct FoundNarrowing {
   std::string branch;
   double at_m = 0;              ///< from the branch's first sphere to its narrowest
-  double from_m = 0, to_m = 0;  ///< where it is narrow, from there
+  double from_m = 0, to_m = 0;  ///< where it is narrow, by `least` or half of its depth, from there
   double stenosis = 0;          ///< of the diameter
   double reference_m = 0;       ///< diameter around it
   Eigen::Vector3d p = Eigen::Vector3d::Zero();

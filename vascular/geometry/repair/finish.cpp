@@ -98,29 +98,6 @@ void astride_wall(const BoundingVolumeHierarchy& wall, double voxel_m, Mesh& mes
   move_vertices(std::move(step), mesh);
 }
 
-/// Smooths the surface where triangles cross until none do.
-void uncross(Mesh& mesh) {
-  for (int round = 0; round < most_uncrossings; ++round) {
-    const auto pairs = crossing_triangles(mesh);
-    if (pairs.empty()) return;
-    std::vector<bool> moves(mesh.vertices.size());
-    for (const auto& pair : pairs)
-      for (int t : pair)
-        for (int v : mesh.triangles[t]) moves[v] = true;
-    for (int wider = 0; wider <= round / 3; ++wider) {
-      const std::vector<bool> before = moves;
-      for (const auto& t : mesh.triangles)
-        if (before[t[0]] || before[t[1]] || before[t[2]]) moves[t[0]] = moves[t[1]] = moves[t[2]] = true;
-    }
-    std::vector<Eigen::Vector3d> sum(mesh.vertices.size(), Eigen::Vector3d::Zero());
-    std::vector<int> count(mesh.vertices.size(), 0);
-    for (const auto& t : mesh.triangles)
-      for (int k = 0; k < 3; ++k) sum[t[k]] += mesh.vertices[t[(k + 1) % 3]], ++count[t[k]];
-    for (std::size_t v = 0; v < moves.size(); ++v)
-      if (moves[v]) mesh.vertices[v] = (mesh.vertices[v] + sum[v] / count[v]) / 2;
-  }
-}
-
 std::vector<double> wanted_edges(const Mesh& fine, double voxel_m) {
   const BoundingVolumeHierarchy tree(fine);
   const std::vector<double> diameter = calibres(fine, tree, calibre_stride);
@@ -146,6 +123,28 @@ std::vector<double> wanted_edges(const Mesh& fine, double voxel_m) {
 }
 
 }  // namespace
+
+void uncross(Mesh& mesh) {
+  for (int round = 0; round < most_uncrossings; ++round) {
+    const auto pairs = crossing_triangles(mesh);
+    if (pairs.empty()) return;
+    std::vector<bool> moves(mesh.vertices.size());
+    for (const auto& pair : pairs)
+      for (int t : pair)
+        for (int v : mesh.triangles[t]) moves[v] = true;
+    for (int wider = 0; wider <= round / 3; ++wider) {
+      const std::vector<bool> before = moves;
+      for (const auto& t : mesh.triangles)
+        if (before[t[0]] || before[t[1]] || before[t[2]]) moves[t[0]] = moves[t[1]] = moves[t[2]] = true;
+    }
+    std::vector<Eigen::Vector3d> sum(mesh.vertices.size(), Eigen::Vector3d::Zero());
+    std::vector<int> count(mesh.vertices.size(), 0);
+    for (const auto& t : mesh.triangles)
+      for (int k = 0; k < 3; ++k) sum[t[k]] += mesh.vertices[t[(k + 1) % 3]], ++count[t[k]];
+    for (std::size_t v = 0; v < moves.size(); ++v)
+      if (moves[v]) mesh.vertices[v] = (mesh.vertices[v] + sum[v] / count[v]) / 2;
+  }
+}
 
 Mesh finished_surface(const Mesh& fine, const BoundingVolumeHierarchy& wall, double voxel_m, std::size_t parts,
                       std::size_t most_triangles) {

@@ -9,4 +9,7 @@ namespace ostium::vascular {
 Mesh finished_surface(const Mesh& fine, const BoundingVolumeHierarchy& wall, double voxel_m, std::size_t parts,
                       std::size_t most_triangles);
 
+/// Smooths a surface where triangles cross until none do.
+void uncross(Mesh& mesh);
+
 }  // namespace ostium::vascular

@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <set>
 
@@ -71,6 +72,7 @@ class Mender {
       throw MeshError(
           "nothing closed comes out of the mesh; expected the wall of a vessel, with openings narrower than itself");
     if (left_out_ > 0) note("crumb left out (smaller than 8 mm3)", left_out_, {});
+    note_cut_vessels(lumens);
     // Only the part of the mesh that borders on the outside.
     const Mesh outside{mesh_.vertices, bordering_triangles(mesh_, WindingNumber(mesh_), result_.voxel_m / 20)};
     const BoundingVolumeHierarchy wall(outside);
@@ -79,6 +81,7 @@ class Mender {
       say("coarsening the surface");
       append(result_.lumen, finished_surface(part, wall, result_.voxel_m, lumens.size(), options_.most_triangles));
     }
+    if (lumens.size() > 1) uncross(result_.lumen);  // of vessels that nearly touch
     result_.lumens = static_cast<int>(lumens.size());
     return std::move(result_);
   }
@@ -240,6 +243,22 @@ class Mender {
   }
 
   /// Throws MeshError if voxels lose what is large enough.
+  /// More lumens than the mesh has pieces: a narrowing finer than the grid has gone.
+  void note_cut_vessels(const std::vector<Mesh>& lumens) {
+    const auto more = static_cast<int>(lumens.size()) - sheets_.pieces;
+    if (more <= 0) return;
+    const BoundingVolumeHierarchy largest(lumens[0]);
+    std::vector<Eigen::Vector3d> where;
+    for (std::size_t i = 1; i < lumens.size(); ++i)
+      where.push_back(*std::ranges::min_element(lumens[i].vertices, {}, [&](const Eigen::Vector3d& p) {
+        return largest.nearest(p, std::numeric_limits<double>::infinity()).distance_m;
+      }));
+    note(fmt::format(
+             "vessel cut in two, as it is narrower there than the grid of {:.2g} mm; a finer --voxel may keep it",
+             result_.voxel_m / mm),
+         more, where);
+  }
+
   void require_finer_voxel() const {
     if (largest_piece_m3() > crumb_m3)
       throw MeshError(

@@ -54,6 +54,9 @@ Instrument InstrumentKeys::read(const JsonObject& set) const {
     const JsonObject section(item, section_);
     const auto ends = section.numbers("from_tip_mm", 2);
     const bool gap = needs_.no_gaps && std::fabs(ends[0] - end_mm) > touching_mm;
+    if (!needs_.no_gaps && ends[0] < end_mm - touching_mm)
+      section["from_tip_mm"].refuse(
+          fmt::format("a section from {:g} mm on or further, where the one before it ends", end_mm));
     if (gap || !(ends[1] > ends[0]) || ends[0] < 0)
       section["from_tip_mm"].refuse(
           needs_.no_gaps ? fmt::format("a section from {:g} mm on, where the one before it ends", end_mm)
