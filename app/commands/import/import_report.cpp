@@ -116,7 +116,13 @@ void tell(const Imported& x, const std::string& called) {
         "narrowing kept: {} from {:.0f} mm, {:.0f} mm long, the diameter of {:.1f} mm less by {:.0f} % at {:.0f} mm\n",
         n.branch, n.from_m / mm, (n.to_m - n.from_m) / mm, n.reference_m / mm, 100 * n.stenosis, n.at_m / mm);
   for (const std::string& note : x.found.notes) fmt::print("note: {}\n", note);
-  fmt::print("rehearse on it as on any case: ostium cases {}\n", called);
+  if (find_branch(x.found.anatomy, "aorta"))
+    fmt::print("rehearse on it as on any case: ostium cases {}\n", called);
+  else
+    fmt::print(
+        "scripts that ship begin in an aorta; rehearse on it with your own (data/scripts): ostium run {} --script "
+        "FILE.json\n",
+        called);
 }
 
 }  // namespace ostium::app
