@@ -180,6 +180,12 @@ expect 0 '"beats": true' "$ostium" import "$folder/marked.obj" -o "$folder/singl
 for command in "inject" "treat --no-pictures"; do
   expect 3 "no coronary artery leaves an aorta" "$ostium" $command "$folder/single"
 done
+cat >"$folder/pressed.json" <<'END'
+{ "schema": "ostium-script/1", "name": "pressed", "title": "contrast",
+  "tools": [{ "name": "guide", "instrument": "guide-jr4-6f" }],
+  "steps": [{ "do": "inject", "rate_mL_s": 3, "volume_mL": 5 }] }
+END
+expect 3 "pressed.json:3: inject: no blood flows in this vessel" "$ostium" run "$folder/single" --script "$folder/pressed.json"
 expect 3 "this patient has no LM" frame "$folder/single" --fill left -o "$folder/filled.png"
 expect 0 "AP" frame "$folder/single" -o "$folder/empty.png"
 expect 2 "it is empty" "$ostium" import "$folder/marked.obj" -o ""

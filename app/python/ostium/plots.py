@@ -154,7 +154,7 @@ def main(arguments=None):
     with_patient = all("guide_mmHg" in run.signals.names for run in runs)
     of_patient = OF_THE_ARTERY if a.artery else OF_THE_PATIENT if a.patient else None
     if of_patient and not with_patient:
-        parser.error("a mesh has no circulation; expected a recording of a case")
+        parser.error("no blood flows in its vessel; expected a recording of a case")
     drawn = of_patient or [p for p in PLOTS if with_patient or p not in (pressure, lumen)]
     figure, grid = pyplot.subplots(len(drawn), len(runs), sharex="col", squeeze=False,
                                    figsize=(max(9, 6 * len(runs)), 1.9 * len(drawn)))

@@ -37,7 +37,7 @@ std::string why_no_provocation(const vascular::FlowTree& tree, const ConsoleOrde
 }  // namespace
 
 std::string why_not(const SessionModel& model, const ConsoleOrder& order) {
-  if (data::row_of(order.command).patient && !model.has_patient()) return "a mesh has no circulation";
+  if (data::row_of(order.command).patient && !model.has_patient()) return "no blood flows in this vessel";
   if (order.command == ConsoleCommand::provoke) return why_no_provocation(model.vessel->coronaries->tree(), order);
   if (order.command == ConsoleCommand::breath && !(model.breaths_1_min > 0))
     return "this patient does not breathe; expected --set breathing=12 or so";

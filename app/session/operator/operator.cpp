@@ -33,7 +33,7 @@ int cell_at(const Coronaries& c, const VesselIndex& way, int sphere) {
 /// Refuses a condition about something this session does not have.
 void require_subject(const data::ScriptCondition& c, const SessionModel& model) {
   if (needs_patient(c.kind) && !model.has_patient())
-    refuse(c, c.words + ": a mesh has no circulation; expected a case");
+    refuse(c, c.words + ": no blood flows in this vessel; expected a case whose coronary arteries leave an aorta");
   if (!is_about_a_lesion(c.kind)) return;
   if (const std::size_t n = model.vessel->coronaries->lesions.size(); static_cast<std::size_t>(c.lesion) >= n)
     refuse(c, n == 0 ? c.words + ": this patient has no lesion"
@@ -118,7 +118,9 @@ void require_tool(const data::Script& script, const data::ScriptStep& step, cons
 /// The flow cell of a step's `at`, or the index of its drug; refuses what this session does not have.
 int subject_of(const data::Script& script, const data::ScriptStep& step, const SessionModel& model) {
   if (needs_patient(step.action) && !model.has_patient())
-    refuse_step(script, step, step.words() + ": a mesh has no circulation; expected a case");
+    refuse_step(
+        script, step,
+        step.words() + ": no blood flows in this vessel; expected a case whose coronary arteries leave an aorta");
   require_tool(script, step, model);
   if (step.action == data::ScriptAction::give) return find_drug(step, model.treatment.drugs, script);
   if (step.at.empty()) return -1;

@@ -88,11 +88,13 @@ constexpr bool each_action_has_a_row() {
 }
 static_assert(each_action_has_a_row());
 
-/// Whether the action needs a circulation, which a mesh does not have.
+/// Whether the action needs a circulation, which a mesh or a vessel without an aorta does not have.
 constexpr bool needs_patient(ScriptAction action) {
-  return action == ScriptAction::aspirate || action == ScriptAction::give || action == ScriptAction::infuse ||
-         action == ScriptAction::drain || action == ScriptAction::shock || action == ScriptAction::compress ||
-         action == ScriptAction::pace || action == ScriptAction::breathe || action == ScriptAction::provoke;
+  return action == ScriptAction::inject || action == ScriptAction::inflate || action == ScriptAction::deflate ||
+         action == ScriptAction::drug || action == ScriptAction::aspirate || action == ScriptAction::give ||
+         action == ScriptAction::infuse || action == ScriptAction::drain || action == ScriptAction::shock ||
+         action == ScriptAction::compress || action == ScriptAction::pace || action == ScriptAction::breathe ||
+         action == ScriptAction::provoke;
 }
 
 /// The value of "do" for a step that stands for the steps of another script.
