@@ -281,6 +281,7 @@ class Import {
                             found, wanted));
     made_.found.lumen = as_written(std::move(made_.found.lumen), vascular::LengthUnit::millimetre);
     const vascular::SurfaceReport report = check_surface(made_.found.lumen);
+    crossing_at_rest_ = report.crossings.count;
     if (!report.sound())
       made_.found.notes.push_back("the lumen is not sound: " + describe(report).substr(0, describe(report).find('\n')));
     if (rounding_m_ > vascular::rounding_matters * made_.unit.calibre_m)
@@ -339,7 +340,7 @@ class Import {
                                      "cross at end-systole",
                                      crossing)
                        : ""));
-    } else if (crossing > vascular::check_surface(made_.patient.lumen.at(0, 0)).crossings.count) {
+    } else if (crossing > crossing_at_rest_) {
       const Eigen::Vector3d p = systole.crossings.where.front() / mm;
       made_.found.notes.push_back(
           fmt::format("at end-systole {} pairs of triangles cross, the first at {:.1f} {:.1f} {:.1f} mm of the patient "
@@ -364,7 +365,8 @@ class Import {
   vascular::Mesh mesh_;
   std::vector<std::string> files_;  ///< that were read
   std::vector<std::string> doubts_of_frames_;
-  double rounding_m_ = 0;  ///< between neighbouring numbers of the file
+  double rounding_m_ = 0;     ///< between neighbouring numbers of the file
+  int crossing_at_rest_ = 0;  // pairs of triangles
   Imported made_;
 };
 

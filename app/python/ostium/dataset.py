@@ -21,6 +21,7 @@ from typing import Any, Callable, Iterable, Mapping, Optional, Union
 
 from ._ostium import _label_run, _require_dicom, _write_label_set
 from .errors import OstiumError
+from .whole_file import write_whole
 
 CLASSES = ("background", "vessel", "coronary artery", "catheter", "wire", "device shaft", "balloon", "stent")
 DEPTH_UNIT_MM = 0.02  # of the numbers in depth/*.png
@@ -80,13 +81,7 @@ def run(numbered, folder, of, every_s, pixels, dicom):
                            "person": name, "outcome": "aborted", "reason": " ".join(str(error).split()),
                            "simulated_s": 0, "pictures": [], "values": values})
     text = json.dumps({**made, "values": values}) + "\n"
-    beside = path.with_suffix(".unfinished")
-    try:
-        beside.write_text(text, encoding="utf-8")
-        beside.replace(path)
-    except OSError as error:
-        beside.unlink(missing_ok=True)
-        raise OSError(error.errno, error.strerror, str(path)) from None
+    write_whole(path, text.encode())
     return text
 
 

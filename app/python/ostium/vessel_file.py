@@ -1,7 +1,6 @@
 """Vessels as files: what one is made from, so that it is the same in another place."""
 
 import io
-import os
 import zipfile
 import zlib
 from pathlib import Path
@@ -9,6 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from ._ostium import Vessel
+from .whole_file import write_whole
 
 _NAMES = ("vessel", "case", "person", "vertices", "triangles", "entry", "towards")
 
@@ -19,21 +19,7 @@ def save(self, path):
     recipe["person"] = -1 if recipe["person"] is None else recipe["person"]
     packed = io.BytesIO()
     np.savez_compressed(packed, format="ostium-vessel/1", **recipe)
-    place = Path(os.path.realpath(path))
-    if place.exists() and not place.is_file():  # a device, a pipe: written as it is
-        place.write_bytes(packed.getvalue())
-        return
-    # What was there stays until all of the new one is written.
-    unfinished = place.with_name(place.name + ".unfinished")
-    try:
-        with open(unfinished, "wb") as file:
-            file.write(packed.getvalue())
-            file.flush()
-            os.fsync(file.fileno())
-        os.replace(unfinished, place)
-    except OSError:
-        unfinished.unlink(missing_ok=True)
-        raise
+    write_whole(path, packed.getvalue())
 
 
 def load(path):
