@@ -71,21 +71,22 @@ void print(const data::Characterisation& c) {
   fmt::print("In brackets: as declared, not measured.\n");
 }
 
-void write_report(const data::Characterisation& c, const std::filesystem::path& folder) {
+void add_report(const data::Characterisation& c, const std::filesystem::path& folder,
+                std::vector<data::FileText>& files) {
   for (const data::CharacterisedSet& s : c.sets) {
     const std::filesystem::path of = folder / s.name;
     if (const auto* x = std::get_if<data::Explanation>(&s.found)) {
       if (x->verdict_text.empty()) continue;  // it was not reached
-      data::write_file((of / "explanation.json").string(), to_json(*x));
-      data::write_file((of / "explanation.html").string(), to_html(s.shapes, *x));
+      files.push_back({(of / "explanation.json").string(), to_json(*x)});
+      files.push_back({(of / "explanation.html").string(), to_html(s.shapes, *x)});
     } else {
       const auto& found = std::get<data::curves::CurveExplanation>(s.found);
-      data::write_file((of / "explanation.json").string(), to_json(found));
-      data::write_file((of / "explanation.html").string(), to_html(found));
+      files.push_back({(of / "explanation.json").string(), to_json(found)});
+      files.push_back({(of / "explanation.html").string(), to_html(found)});
     }
   }
-  data::write_file((folder / "characterisation.json").string(), to_json(c));
-  data::write_file((folder / "characterisation.html").string(), to_html(c));
+  files.push_back({(folder / "characterisation.json").string(), to_json(c)});
+  files.push_back({(folder / "characterisation.html").string(), to_html(c)});
 }
 
 /// What is named twice would count as measured twice: its error would shrink, and it would agree with itself.
@@ -120,8 +121,9 @@ int run(const Arguments& a) {
   options.stop = [] { return interrupted.load(); };
   const data::Characterisation found = data::characterise(a.sets, like, options);
   show_progress("");
-  if (!a.folder.empty()) write_report(found, a.folder);
-  data::write_file(a.file, instrument_json(found, std::filesystem::path(a.file).stem().string()));
+  std::vector<data::FileText> files = {{a.file, instrument_json(found, std::filesystem::path(a.file).stem().string())}};
+  if (!a.folder.empty()) add_report(found, a.folder, files);
+  data::write_files(files);
   if (a.json)
     fmt::print("{}", to_json(found));
   else

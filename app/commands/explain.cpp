@@ -63,18 +63,20 @@ void print(const data::Explanation& x) {
 
 void write_found(const Arguments& a, const data::MeasurementSet& set, const data::Explanation& found) {
   const std::filesystem::path folder(a.folder);
-  data::write_file((folder / "explanation.json").string(), to_json(found));
-  data::write_file((folder / "explanation.html").string(), to_html(set, found));
-  data::write_file((folder / "amended" / "measurement.json").string(), amended(data::read_file(set.file), set, found));
+  std::vector<data::FileText> files = {
+      {(folder / "explanation.json").string(), to_json(found)},
+      {(folder / "explanation.html").string(), to_html(set, found)},
+      {(folder / "amended" / "measurement.json").string(), amended(data::read_file(set.file), set, found)}};
   for (std::size_t i = 0; i < set.instruments.size(); ++i) {
     const bool one = set.instruments.size() == 1, innermost = i + 1 == set.instruments.size();
     // Instruments are found by their file's name.
     const std::string name = one ? "instrument" : fmt::format("instrument-{}", i);
-    data::write_file((folder / (name + ".json")).string(), instrument_json(set, found, i, name));
+    files.push_back({(folder / (name + ".json")).string(), instrument_json(set, found, i, name)});
     if (innermost && !a.instrument.empty())
-      data::write_file(a.instrument,
-                       instrument_json(set, found, i, std::filesystem::path(a.instrument).stem().string()));
+      files.push_back(
+          {a.instrument, instrument_json(set, found, i, std::filesystem::path(a.instrument).stem().string())});
   }
+  data::write_files(files);
 }
 
 int write_a_template(const Arguments& a) {

@@ -33,9 +33,9 @@ void explain_curves(const data::JsonValue& file, const data::curves::CurveOption
   const data::curves::CurveExplanation found = data::curves::explain_curves(root, options);
   show_progress("");
   const std::filesystem::path folder(to);
-  data::write_file((folder / "explanation.json").string(), to_json(found));
-  data::write_file((folder / "explanation.html").string(), to_html(found));
-  data::write_file((folder / "amended" / "measurement.json").string(), amended(root, found));
+  data::write_files({{(folder / "explanation.json").string(), to_json(found)},
+                     {(folder / "explanation.html").string(), to_html(found)},
+                     {(folder / "amended" / "measurement.json").string(), amended(root, found)}});
   if (json)
     fmt::print("{}", to_json(found));
   else
@@ -49,8 +49,8 @@ void predict_curves(const data::JsonValue& file, const std::string& to, bool jso
     fmt::print(stderr, "ostium predict: {}\n", doubt);
   const std::string text = prediction_json(*set);
   const std::filesystem::path folder(to);
-  data::write_file((folder / "prediction.json").string(), text);
-  data::write_file((folder / "prediction.csv").string(), prediction_csv(*set));
+  data::write_files(
+      {{(folder / "prediction.json").string(), text}, {(folder / "prediction.csv").string(), prediction_csv(*set)}});
   if (json) {
     fmt::print("{}", text);
     return;

@@ -70,8 +70,8 @@ void predict_shapes(const Arguments& a, const data::MeasurementSet& set) {
     for (const double apart_m : p.other_branches_m)
       fmt::print(stderr, "ostium predict: {} has another stable shape, its tip {:.1f} mm away\n", p.id, 1e3 * apart_m);
   const std::filesystem::path folder(a.folder);
-  data::write_file((folder / "prediction.json").string(), to_json(predictions));
-  data::write_file((folder / "prediction.csv").string(), to_csv(predictions));
+  data::write_files({{(folder / "prediction.json").string(), to_json(predictions)},
+                     {(folder / "prediction.csv").string(), to_csv(predictions)}});
   if (a.json)
     fmt::print("{}", to_json(predictions));
   else

@@ -138,6 +138,8 @@ struct Still {
 /// `told` gets what was written.
 int make_film(const Arguments& a, Replay& replay, Json& told) {
   FilmOptions options = film_options(a.picture);
+  if (options.monitor && !replay.model.has_patient())
+    throw data::LoadError(a.file + ": --monitor shows ECG and pressure, and no blood flows in these vessels");
   if (!a.dicom.empty()) options.overlay = options.monitor = false;
   show_progress("building the patient's chest");
   Film film(replay.model, options);

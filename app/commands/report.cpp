@@ -120,13 +120,13 @@ void report_folder(const std::string& folder, std::shared_ptr<const Vessel> vess
   const fs::path at(folder);
   Replay replay((at / recording).string(), std::move(vessel));
   const std::vector<data::ReportRun> runs = {run_of(replay, "this run", list, renderer)};
-  data::write_file((at / "report.html").string(), report_page(runs, list));
-  data::write_file((at / "events.csv").string(), events_csv(runs[0]));
+  std::vector<data::FileText> files = {{(at / "report.html").string(), report_page(runs, list)},
+                                       {(at / "events.csv").string(), events_csv(runs[0])}};
   for (std::size_t i = 0; i < runs[0].pictures.size(); ++i) {
     const data::ReportPicture& p = runs[0].pictures[i];
-    data::write_file((at / "key-frames" / fmt::format("{:02}.png", i + 1)).string(),
-                     {reinterpret_cast<const char*>(p.png.data()), p.png.size()});
+    files.push_back({(at / "key-frames" / fmt::format("{:02}.png", i + 1)).string(), {p.png.begin(), p.png.end()}});
   }
+  data::write_files(files);
 }
 
 namespace {
@@ -181,10 +181,12 @@ int run(const Arguments& a) {
                           a.pictures ? std::optional(renderer_named(a.renderer)) : std::nullopt));
   }
   // All have been read: where one is refused nothing is written.
-  if (!a.questionnaire.empty()) data::write_file(a.questionnaire, data::questionnaire_page());
-  if (!a.events.empty()) data::write_file(a.events, events_csv(runs[0]));
-  if (!a.page.empty()) data::write_file(a.page, report_page(runs, list));
-  if (!a.csv.empty()) data::write_file(a.csv, report_csv(runs, list));
+  std::vector<data::FileText> files;
+  if (!a.questionnaire.empty()) files.push_back({a.questionnaire, data::questionnaire_page()});
+  if (!a.events.empty()) files.push_back({a.events, events_csv(runs[0])});
+  if (!a.page.empty()) files.push_back({a.page, report_page(runs, list)});
+  if (!a.csv.empty()) files.push_back({a.csv, report_csv(runs, list)});
+  data::write_files(files);
   fmt::print("{}\n", a.page);
   return 0;
 }

@@ -10,6 +10,7 @@
 #include <climits>
 #include <cstdio>
 #include <cstring>
+#include <deque>
 #include <filesystem>
 
 #include "data/formats/paths.h"
@@ -39,6 +40,16 @@ int locked(const std::string& beside, const std::string& path) {
     if (fstat(file, &mine) == 0 && stat(beside.c_str(), &there) == 0 && mine.st_ino == there.st_ino) return file;
     close(file);  // whoever wrote it gave it its name just now
   }
+}
+
+/// Throws WriteError.
+void put(std::string_view bytes, const NewFile& file) {
+  std::FILE* out = std::fopen(file.beside().c_str(), "wb");
+  if (!out) throw write_error(file.path(), std::strerror(errno));
+  errno = 0;
+  const bool written = std::fwrite(bytes.data(), 1, bytes.size(), out) == bytes.size() && std::fflush(out) == 0;
+  const std::string why = written ? "" : std::strerror(errno);
+  if (std::fclose(out) != 0 || !written) throw write_error(file.path(), why);
 }
 
 }  // namespace
@@ -92,13 +103,14 @@ void require_place_for(const std::string& file) {
 
 void write_file(const std::string& path, std::string_view bytes) {
   NewFile file(path);
-  std::FILE* out = std::fopen(file.beside().c_str(), "wb");
-  if (!out) throw write_error(path, std::strerror(errno));
-  errno = 0;
-  const bool written = std::fwrite(bytes.data(), 1, bytes.size(), out) == bytes.size() && std::fflush(out) == 0;
-  const std::string why = written ? "" : std::strerror(errno);
-  if (std::fclose(out) != 0 || !written) throw write_error(path, why);
+  put(bytes, file);
   file.finish();
+}
+
+void write_files(const std::vector<FileText>& files) {
+  std::deque<NewFile> written;
+  for (const FileText& file : files) put(file.bytes, written.emplace_back(file.path));
+  for (NewFile& file : written) file.finish();
 }
 
 }  // namespace ostium::data

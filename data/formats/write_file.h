@@ -3,6 +3,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace ostium::data {
 
@@ -40,6 +41,13 @@ std::string behind_links(std::string path);
 
 /// Writes `bytes`. Throws WriteError; what was there is then as it was.
 void write_file(const std::string& path, std::string_view bytes);
+
+struct FileText {
+  std::string path, bytes;
+};
+
+/// Several that belong together: all are written before the first of them gets its name. Throws WriteError.
+void write_files(const std::vector<FileText>& files);
 
 /// Throws WriteError if a file cannot be put there: found after hours of work it would be late.
 void require_place_for(const std::string& file);

@@ -81,6 +81,28 @@ expect 3 "this patient has no LM" frame "$folder/single" --fill left -o "$folder
 expect 0 "AP" frame "$folder/single" -o "$folder/empty.png"
 expect 2 "it is empty" "$ostium" import "$folder/marked.obj" -o ""
 expect 2 "it is empty" "$ostium" run ""
+# A throat of 0.9 mm in 3.4 mm, 73 %, too small a share of a long vessel to set its grid.
+awk 'BEGIN { n = 32; r = 301; for (j = 0; j < r; ++j) for (i = 0; i < n; ++i) {
+    z = 0.4 * j; x = (z - 60) / 4; w = 1.7 * (1 - 0.73 * (x * x < 1 ? 0.5 * (1 + cos(3.14159265 * x)) : 0))
+    print "v", w * cos(6.2831853 * i / n), w * sin(6.2831853 * i / n), z }
+  for (j = 0; j + 1 < r; ++j) for (i = 0; i < n; ++i) { a = 1 + j * n; b = (i + 1) % n
+    print "f", a + i, a + b, a + n + b, a + n + i } }' >"$folder/throat.obj"
+expect 0 '"stenosis_percent": 7[234]\.' "$ostium" import "$folder/throat.obj" -o "$folder/throat" --units mm --json
+
+# A run in it is shown and reported as long as its case is the same, its entry included.
+cat >"$folder/still.json" <<'END'
+{ "schema": "ostium-script/1", "name": "still", "title": "A wire that waits",
+  "tools": [{ "name": "wire", "instrument": "wire-014-workhorse" }],
+  "steps": [{ "do": "wait", "until": [{ "seconds": 0.2 }] }] }
+END
+"$ostium" run "$folder/throat" --script "$folder/still.json" --out "$folder/run" >/dev/null
+expect 0 "0.100 s" "$ostium" replay "$folder/run/run.h5" --from 0.1 --pixels 64 --png "$folder/moment.png"
+expect 3 "no blood flows" "$ostium" replay "$folder/run/run.h5" --monitor --video "$folder/none.mp4"
+sed -i -E 's/("access_mm": \[[^,]*, [^,]*\.)./\19/' "$folder/throat/anatomy.json"
+for command in "replay --png $folder/moment.png" "report -o $folder/report.html"; do
+  expect 3 "not those that the run was made in" "$ostium" $command "$folder/run/run.h5"
+done
+
 # What is not an import's own is never lost to one.
 echo mine >"$folder/mine.txt"
 for place in mine.txt not-there/../mine.txt; do

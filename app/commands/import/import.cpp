@@ -32,6 +32,7 @@
 #include "vascular/geometry/repair/repair.h"
 #include "vascular/motion/frame_order.h"
 #include "vascular/motion/heart_cycle.h"
+#include "vascular/patient/patient_tree.h"
 
 namespace ostium::app {
 
@@ -126,9 +127,10 @@ class Import {
       read_sequence();
     } else {
       read();
-      repair();
+      repair(0);
     }
     label();
+    look_closer();
     make_case();
     progress_("writing");
     write_case(made_, report_of(made_), options_.picture);
@@ -259,12 +261,13 @@ class Import {
     made_.repaired.lumens = report.components;
   }
 
-  void repair() {
+  void repair(double narrowest_m) {
     vascular::RepairOptions options;
     options.voxel_m = options_.voxel_mm * mm;
+    options.narrowest_m = narrowest_m;
     options.longest_gap_m = options_.longest_gap_mm * mm;
     options.progress = std::ref(progress_);
-    made_.repaired = repair_mesh(std::move(mesh_), options);
+    made_.repaired = repair_mesh(mesh_, options);
   }
 
   void label() {
@@ -293,6 +296,16 @@ class Import {
       if (const std::string doubt = vascular::doubt_of_mesh_end(file); !doubt.empty())
         made_.found.notes.push_back(doubt);
     for (const std::string& doubt : doubts_of_frames_) made_.found.notes.push_back(doubt);
+  }
+
+  /// Once more on a finer grid, where a throat is too narrow for the first and came out narrower still.
+  void look_closer() {
+    if (options_.sequence || made_.repaired.voxel_m <= made_.repaired.finest_m) return;
+    const auto throats = find_narrowings(tree_of(made_.found.anatomy, {}, made_.found.lumen));
+    const double narrowest_m = vascular::narrowest_m(throats);
+    if (narrowest_m == 0 || narrowest_m > vascular::voxels_across * made_.repaired.voxel_m) return;
+    repair(narrowest_m);
+    label();
   }
 
   void make_case() {

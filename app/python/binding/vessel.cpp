@@ -27,6 +27,7 @@ using Triangles = Eigen::Matrix<int, Eigen::Dynamic, 3, Eigen::RowMajor>;
 
 std::string key_of(const RunSetup& setup) {
   std::uint64_t h = core::hash_bytes(setup.case_text.data(), setup.case_text.size(), 1);
+  h = core::hash_bytes(setup.shape.data(), setup.shape.size(), h);
   h = core::hash_bytes(setup.mesh.vertices.data(), setup.mesh.vertices.size() * sizeof(Eigen::Vector3d), h);
   h = core::hash_bytes(setup.mesh.triangles.data(), setup.mesh.triangles.size() * sizeof(std::array<int, 3>), h);
   h = core::hash_bytes(setup.entry.p_P.data(), 3 * sizeof(double), h);
@@ -120,12 +121,12 @@ py::tuple recipe(const VesselHandle& self) {
   Triangles triangles(s.mesh.triangles.size(), 3);
   for (Eigen::Index t = 0; t < triangles.rows(); ++t)
     for (int k = 0; k < 3; ++k) triangles(t, k) = s.mesh.triangles[static_cast<std::size_t>(t)][k];
-  return py::make_tuple(s.vessel, s.case_text, s.person, vertices, triangles, s.entry.p_P, s.entry.towards_P);
+  return py::make_tuple(s.vessel, s.case_text, s.person, vertices, triangles, s.entry.p_P, s.entry.towards_P, s.shape);
 }
 
 std::shared_ptr<VesselHandle> from_recipe(const py::tuple& r) {
   RunSetup s;
-  if (r.size() != 7) throw py::value_error("this is no vessel of this version");
+  if (r.size() != 8) throw py::value_error("this is no vessel of this version");
   s.vessel = r[0].cast<std::string>(), s.case_text = r[1].cast<std::string>();
   s.person = r[2].cast<std::optional<std::uint64_t>>();
   const auto vertices = r[3].cast<Points>();
@@ -141,6 +142,7 @@ std::shared_ptr<VesselHandle> from_recipe(const py::tuple& r) {
     s.mesh.triangles.push_back(one);
   }
   s.entry = {r[5].cast<Eigen::Vector3d>(), r[6].cast<Eigen::Vector3d>()};
+  s.shape = r[7].cast<std::string>();
   const OthersRun others_run;
   return std::const_pointer_cast<VesselHandle>(VesselHandle::of(std::move(s)));
 }

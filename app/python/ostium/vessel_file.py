@@ -8,9 +8,10 @@ from pathlib import Path
 import numpy as np
 
 from ._ostium import Vessel
+from .errors import OstiumError
 from .whole_file import write_whole
 
-_NAMES = ("vessel", "case", "person", "vertices", "triangles", "entry", "towards")
+_NAMES = ("vessel", "case", "person", "vertices", "triangles", "entry", "towards", "shape")
 
 
 def save(self, path):
@@ -23,7 +24,8 @@ def save(self, path):
 
 
 def load(path):
-    """A vessel that `save` wrote. Raises ValueError for another file, or one that is damaged."""
+    """A vessel that `save` wrote. Raises ValueError for another file, or one that is damaged, and OstiumError where its
+    case has been imported anew since, and is another."""
     packed = Path(path).read_bytes()
     try:
         with np.load(io.BytesIO(packed), allow_pickle=False) as file:
@@ -31,10 +33,12 @@ def load(path):
                 raise ValueError("another file")
             person = int(file["person"])
             recipe = (str(file["vessel"]), str(file["case"]), None if person < 0 else person,
-                      *(file[name] for name in _NAMES[3:]))
+                      *(file[name] for name in _NAMES[3:-1]), str(file["shape"]))
         vessel = Vessel.__new__(Vessel)
         vessel.__setstate__(recipe)
         return vessel
+    except OstiumError as error:  # whatever its case is by now
+        raise OstiumError(f"{path}: {error}") from error
     except (ValueError, TypeError, EOFError, OSError, NotImplementedError, RuntimeError, zipfile.BadZipFile,
             zlib.error) as error:
         raise ValueError(f"{path}: is no vessel, or is damaged; expected a file of Vessel.save") from error

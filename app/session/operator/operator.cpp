@@ -145,6 +145,20 @@ std::vector<int> places(const data::Script& script, const std::vector<data::Scri
   return out;
 }
 
+/// A script would find its way, choose sizes by another artery's lesion, and treat what is healthy.
+void require_lesions(const data::Script& script, const SessionModel& model) {
+  if (script.by_hand || script.lesions_in.empty()) return;
+  std::vector<std::string> there;
+  if (model.vessel->patient)
+    for (const vascular::Lesion& lesion : model.vessel->patient->lesions) there.push_back(lesion.branch);
+  for (const std::string& branch : script.lesions_in)
+    if (std::ranges::find(there, branch) == there.end())
+      throw data::LoadError(fmt::format("{}: treats a lesion of {}, and {} has {}; expected a case with lesions in: {}",
+                                        script.file, branch, model.vessel->name,
+                                        there.empty() ? "none" : fmt::format("lesions in: {}", fmt::join(there, ", ")),
+                                        fmt::join(script.lesions_in, ", ")));
+}
+
 /// Random factor on the hand's speed in a step: log-normal, 15 %.
 double hand_factor(std::uint64_t seed, int step) {
   if (seed == 0) return 1;
@@ -229,6 +243,7 @@ int leads_to(const data::Script& script, int s, int& tries) {
 }  // namespace
 
 ScriptPlan make_plan(const data::Script& script, const SessionModel& model, std::uint64_t seed) {
+  require_lesions(script, model);
   for (const data::ScriptLandmark& landmark : script.landmarks)
     if (model.vessel->way->place(landmark.name) >= 0)
       throw data::LoadError(

@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/field_numbers.h"
+#include "data/catalogue/case/anatomy_file.h"
 #include "data/catalogue/catalogue.h"
 #include "data/catalogue/drug/drug_file.h"
 #include "data/catalogue/instrument/instrument_reader.h"
@@ -38,19 +39,20 @@ Eigen::Vector3d point(const nlohmann::json& p) {
 }
 
 /// Names stay while what lies in their files may be another.
-std::string shape_of(const std::vector<Eigen::Vector3d>& vertices,
-                     const std::vector<std::vector<Eigen::Vector3d>>& frames = {}) {
-  std::uint64_t hash = 0;
-  const auto add = [&](const std::vector<Eigen::Vector3d>& points) {
-    hash = core::hash_bytes(points.data(), points.size() * sizeof(Eigen::Vector3d), hash);
+std::string shape_of(const vascular::Mesh& mesh, const std::vector<std::vector<Eigen::Vector3d>>& frames = {},
+                     const std::string& more = "") {
+  std::uint64_t hash = core::hash_bytes(more.data(), more.size(), 0);
+  const auto add = [&](const auto& rows) {
+    hash = core::hash_bytes(rows.data(), rows.size() * sizeof(*rows.data()), hash);
   };
-  add(vertices);
+  add(mesh.vertices), add(mesh.triangles);
   std::ranges::for_each(frames, add);
   return fmt::format("{:016x}", hash);
 }
 
 std::string shape_of(const data::Case& c) {
-  return c.imported ? shape_of(c.imported->lumen.vertices, c.imported->frames) : "";
+  if (!c.imported) return "";
+  return shape_of(c.imported->lumen, c.imported->frames, data::anatomy_to_json(c.imported->anatomy));
 }
 
 }  // namespace
@@ -59,7 +61,7 @@ void set_vessel(const std::string& case_or_mesh, vascular::LengthUnit unit, RunS
   setup.vessel = case_or_mesh;
   if (vascular::names_mesh(case_or_mesh)) {
     setup.mesh = read_mesh(case_or_mesh, unit).mesh;
-    setup.shape = shape_of(setup.mesh.vertices);
+    setup.shape = shape_of(setup.mesh);
     return;
   }
   const fs::path file = fs::absolute(data::case_file(case_or_mesh));

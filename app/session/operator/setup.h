@@ -11,7 +11,7 @@ namespace ostium::app {
 struct RunSetup {
   std::string vessel;                      ///< a case's name, or a mesh file
   std::string case_text;                   ///< the case's file
-  std::string shape;                       ///< a number made of a mesh's or an imported case's vertices; else empty
+  std::string shape;                       ///< a number made of a mesh, or of an imported case's vessels; else empty
   std::optional<std::uint64_t> person;     ///< overrides the case's own
   std::optional<double> rate_1_min;        ///< overrides the case's own
   std::optional<vascular::Access> access;  ///< of a generated case

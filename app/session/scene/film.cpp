@@ -101,7 +101,7 @@ const fluoro::Picture& Film::frame(const SessionModel& model, const SessionState
     p.dose = p.running_dose->of(xrays, state.c_arm);
     draw_overlay({p.view, p.programme(), p.report.exposure, p.dose, report.xray_on, "", model.vessel->name}, p.picture);
   }
-  if (o.monitor && model.has_patient())
+  if (o.monitor && p.patient)
     append_strips({p.monitor.II, p.monitor.V2, p.monitor.guide, p.monitor.gauge}, monitor_s, monitor_pixels, p.picture);
   return p.picture;
 }
@@ -131,8 +131,7 @@ void Film::listen(const SessionModel& model, const SessionState& state, const Se
 Monitor& Film::monitor() { return parts_->monitor; }
 
 int Film::height() const {
-  return parts_->options.pixels +
-         (parts_->options.monitor && (parts_->patient || parts_->no_blood) ? monitor_pixels : 0);
+  return parts_->options.pixels + (parts_->options.monitor && parts_->patient ? monitor_pixels : 0);
 }
 
 fluoro::CineRun Film::run() const { return {parts_->view, parts_->programme(), parts_->report.exposure, {}}; }

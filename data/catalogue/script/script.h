@@ -84,6 +84,7 @@ struct ScriptLandmark {
 struct Script {
   std::string file, name, title;
   std::optional<vascular::Access> access;  ///< where it begins; cases with another access are refused. None: any
+  std::vector<std::string> lesions_in;     ///< arteries in each of which it treats a lesion
   std::vector<ScriptTool> tools;
   std::vector<ScriptLandmark> landmarks;
   std::vector<ScriptStep> steps;

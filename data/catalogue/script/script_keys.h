@@ -22,6 +22,8 @@ inline const JsonObjectKeys root = {
      {"title", true, "what people call it, a text", json_type::text()},
      {"access", false, "where it comes in, as a case says it; if not said, anywhere",
       json_type::choice(access_names())},
+     {"lesions_in", false, "arteries in each of which it treats a lesion, a list: \"LAD\"; other cases are refused",
+      json_type::list_of(json_type::text(), 1)},
      {"tools", true, "what is used, the outermost first, a list of at least one",
       json_type::list_of(json_type::object("tool"), 1)},
      {"values", false,

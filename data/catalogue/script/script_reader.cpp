@@ -246,6 +246,11 @@ Script read(JsonValue file, const std::string& text) {
   script.name = root.text("name");
   script.title = root.text("title");
   if (root.has("access")) script.access = static_cast<vascular::Access>(root.choice("access", access_names()));
+  if (root.has("lesions_in"))
+    for (const JsonValue& branch : root.list("lesions_in")) {
+      if (branch.type != JsonValue::Type::text || branch.text.empty()) root.refuse("lesions_in");
+      script.lesions_in.push_back(branch.text);
+    }
   if (root.list("tools").empty()) root.refuse("tools");
   for (const JsonValue& value : root.list("tools")) {
     const JsonObject tool(value, script_keys::tool);

@@ -55,6 +55,25 @@ TEST(Lesions, AScriptIsRefusedOnACaseWithAnotherAccess) {
   }
 }
 
+TEST(Lesions, AScriptIsRefusedOnACaseWithItsLesionsElsewhere) {
+  RunSetup setup = two_lesions();
+  const auto plan_of = [&](const std::string& branch) {
+    setup.script.lesions_in = {"RCA", branch};
+    const SessionModel model = make_session(setup, with_two_lesions());
+    return make_plan(setup.script, model, 0);
+  };
+  EXPECT_NO_THROW(plan_of("RCA"));
+  try {
+    plan_of("D1");
+    FAIL() << "accepted";
+  } catch (const data::LoadError& error) {
+    for (const char* word : {"two.json", "a lesion of D1", "rca-diffuse has lesions in: RCA, RCA"})
+      EXPECT_NE(std::string(error.what()).find(word), std::string::npos) << error.what();
+  }
+  setup.script.by_hand = true;
+  EXPECT_NO_THROW(plan_of("D1")) << "people see where they are";
+}
+
 /// At an artery's origin and end, too, where there is healthy wall on one side only.
 TEST(Lesions, ALesionIsAsNarrowAsItsFileSaysWhereverItLies) {
   const vascular::Anatomy anatomy = vascular::make_patient(vascular::AnatomyParameters{}, {}).anatomy;

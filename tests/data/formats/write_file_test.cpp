@@ -185,6 +185,17 @@ TEST_F(WriteFile, WhatIsNotFinishedIsNotThere) {
   EXPECT_EQ(files(), 1);
 }
 
+TEST_F(WriteFile, FilesThatBelongTogetherAreAllThereOrNone) {
+  std::ofstream(in("a")) << "before";
+  fs::create_directory(in("b"));
+  EXPECT_THROW(write_files({{in("a"), "after"}, {in("b"), "after"}}), WriteError);
+  EXPECT_EQ(text_of(in("a")), "before");
+  EXPECT_EQ(files(), 2);
+  fs::remove(in("b"));
+  write_files({{in("a"), "after"}, {in("b"), "after"}});
+  EXPECT_EQ(text_of(in("a")) + text_of(in("b")), "afterafter");
+}
+
 /// A pipe of that name would wait for somebody who reads it.
 TEST_F(WriteFile, APipeWhereAFileIsMadeIsRefused) {
   ASSERT_EQ(mkfifo(in("a.unfinished").c_str(), 0600), 0);

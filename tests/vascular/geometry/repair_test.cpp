@@ -65,16 +65,40 @@ TEST(Repair, TubesThatNearlyTouchDoNotCross) {
   EXPECT_EQ(check_surface(repaired.lumen).crossings.count, 0);
 }
 
-TEST(Repair, ANarrowingFinerThanTheGridCutsAndItIsSaid) {
-  Mesh tube = test::tube(1.5 * mm, 60 * mm, 64, 120);
+/// A straight vessel, 3 mm wide, narrowed over 12 mm in its middle.
+Mesh narrowed(double stenosis, double length_m) {
+  Mesh tube = test::tube(1.5 * mm, length_m, 64, static_cast<int>(length_m / (0.5 * mm)));
   for (Eigen::Vector3d& p : tube.vertices) {
-    const double x = std::min(1.0, std::fabs(p.z() - 30 * mm) / (6 * mm));
-    const double left = 1 - 0.97 * 0.5 * (1 + std::cos(units::pi * x));
-    p.x() *= left, p.y() *= left;
+    const double x = std::min(1.0, std::fabs(p.z() - length_m / 2) / (6 * mm));
+    const double left = 1 - stenosis * 0.5 * (1 + std::cos(units::pi * x));
+    p.x() = left * p.x() + 0.4 * p.z(), p.y() = left * p.y() + 0.3 * p.z();  // no grid has nodes all along it
   }
-  const RepairedMesh repaired = repair_mesh(tube);
+  return tube;
+}
+
+TEST(Repair, ANarrowingFinerThanTheFinestGridCutsAndItIsSaid) {
+  const RepairedMesh repaired = repair_mesh(narrowed(0.97, 60 * mm));
   EXPECT_EQ(repaired.lumens, 2);
+  EXPECT_EQ(repaired.voxel_m, repaired.finest_m);
   EXPECT_TRUE(says(repaired, "vessel cut in two"));
+}
+
+/// As small a share of a long vessel that its first grid is coarser than the throat.
+TEST(Repair, AVesselThatTheGridCutsIsFilledOnAFinerOne) {
+  const Mesh tube = narrowed(0.9, 300 * mm);
+  const RepairedMesh coarse = repair_mesh(tube, {.voxel_m = 0.4 * mm});
+  EXPECT_EQ(coarse.lumens, 2);
+  EXPECT_TRUE(says(coarse, "vessel cut in two"));
+  const RepairedMesh repaired = repair_mesh(tube);
+  EXPECT_EQ(repaired.lumens, 1);
+  EXPECT_FALSE(says(repaired, "vessel cut in two"));
+}
+
+TEST(Repair, AThroatThatIsKnownMakesTheGridFiner) {
+  const Mesh tube = narrowed(0.7, 300 * mm);
+  const RepairedMesh coarse = repair_mesh(tube), fine = repair_mesh(tube, {.narrowest_m = 0.9 * mm});
+  EXPECT_GT(coarse.voxel_m, 0.3 * mm);
+  EXPECT_NEAR(fine.voxel_m, 0.9 * mm / voxels_across, 1e-9);
 }
 
 /// The first 80 mm of the left coronary tree: left main and LAD, circumflex, a diagonal, from an aorta 30 mm long.

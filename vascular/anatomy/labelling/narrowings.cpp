@@ -72,4 +72,12 @@ std::vector<FoundNarrowing> find_narrowings(const SphereTree& tree, double least
   return found;
 }
 
+double narrowest_m(const std::vector<FoundNarrowing>& narrowings) {
+  double narrowest = 0;
+  for (const FoundNarrowing& n : narrowings)
+    if (const double throat_m = (1 - n.stenosis) * n.reference_m; narrowest == 0 || throat_m < narrowest)
+      narrowest = throat_m;
+  return narrowest;
+}
+
 }  // namespace ostium::vascular

@@ -20,4 +20,7 @@ struct FoundNarrowing {
 /// next to a bulge, than on the side without.
 std::vector<FoundNarrowing> find_narrowings(const SphereTree& tree, double least = 0.3);
 
+/// Diameter of the narrowest, m; 0: there is none.
+double narrowest_m(const std::vector<FoundNarrowing>& narrowings);
+
 }  // namespace ostium::vascular

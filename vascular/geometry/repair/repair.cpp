@@ -31,7 +31,6 @@ namespace {
 
 using units::mm;
 constexpr double least_voxel_m = 0.12e-3, most_voxel_m = 0.4e-3;
-constexpr double voxels_across = 3.5;   // across the narrowest vessels
 constexpr double voxels_between = 2.2;  // of one lumen's limbs, so that they stay apart
 constexpr double least_between_m = 0.05e-3;
 constexpr double most_wall_voxels = 1.5e6;  // of the level set's surface
@@ -50,18 +49,25 @@ class Mender {
     smooth_noise();
     drop_outer_walls();
     close_openings();
-    result_.voxel_m = options_.voxel_m > 0 ? affordable_voxel() : chosen_voxel();
+    choose_voxel();
     keep_limbs_apart();
     say("filling the lumen");
     Mesh lumen = outer_surface(mesh_, result_.voxel_m);
     std::vector<Mesh> lumens = whole_lumens(lumen);
+    if (was_cut(lumens) && result_.finest_m < result_.voxel_m) {
+      say("filling the lumen on a finer grid, as it was cut in two");
+      result_.voxel_m = result_.finest_m;
+      lumen = outer_surface(mesh_, result_.voxel_m);
+      lumens = whole_lumens(lumen);
+    }
+    note_cut_vessels(lumens);
     note_joined_pieces(static_cast<int>(lumens.size()));
     if (lumens.size() > 1 && prolong(lumens)) {
       say("filling the lumen to its new end");
       lumen = outer_surface(mesh_, result_.voxel_m);
       lumens = whole_lumens(lumen);
     }
-    if (lumens.size() > 1 && bridge(lumens)) {
+    if (lumens.size() > 1 && sheets_.pieces > 1 && bridge(lumens)) {  // what is one piece has no gap
       say("filling the lumen once more");
       lumen = outer_surface(mesh_, result_.voxel_m);
       lumens = whole_lumens(lumen);
@@ -72,7 +78,6 @@ class Mender {
       throw MeshError(
           "nothing closed comes out of the mesh; expected the wall of a vessel, with openings narrower than itself");
     if (left_out_ > 0) note("crumb left out (smaller than 8 mm3)", left_out_, {});
-    note_cut_vessels(lumens);
     // Only the part of the mesh that borders on the outside.
     const Mesh outside{mesh_.vertices, bordering_triangles(mesh_, WindingNumber(mesh_), result_.voxel_m / 20)};
     const BoundingVolumeHierarchy wall(outside);
@@ -242,11 +247,11 @@ class Mender {
     return options_.voxel_m;
   }
 
-  /// Throws MeshError if voxels lose what is large enough.
   /// More lumens than the mesh has pieces: a narrowing finer than the grid has gone.
+  bool was_cut(const std::vector<Mesh>& lumens) const { return static_cast<int>(lumens.size()) > sheets_.pieces; }
+
   void note_cut_vessels(const std::vector<Mesh>& lumens) {
-    const auto more = static_cast<int>(lumens.size()) - sheets_.pieces;
-    if (more <= 0) return;
+    if (!was_cut(lumens)) return;
     const BoundingVolumeHierarchy largest(lumens[0]);
     std::vector<Eigen::Vector3d> where;
     for (std::size_t i = 1; i < lumens.size(); ++i)
@@ -256,9 +261,10 @@ class Mender {
     note(fmt::format(
              "vessel cut in two, as it is narrower there than the grid of {:.2g} mm; a finer --voxel may keep it",
              result_.voxel_m / mm),
-         more, where);
+         static_cast<int>(lumens.size()) - sheets_.pieces, where);
   }
 
+  /// Throws MeshError if voxels lose what is large enough.
   void require_finer_voxel() const {
     if (largest_piece_m3() > crumb_m3)
       throw MeshError(
@@ -273,15 +279,21 @@ class Mender {
     return largest;
   }
 
-  double chosen_voxel() const {
+  void choose_voxel() {
+    if (options_.voxel_m > 0) {
+      result_.voxel_m = result_.finest_m = affordable_voxel();
+      return;
+    }
     const BoundingVolumeHierarchy tree(mesh_);
     const int stride = 1 + static_cast<int>(mesh_.triangles.size() / 20'000);
     const std::vector<double> wide = calibres(mesh_, tree, stride);
-    const double narrow = percentile(wide, 0.02);
+    double narrow_m = percentile(wide, 0.02);
+    if (options_.narrowest_m > 0) narrow_m = std::min(narrow_m, options_.narrowest_m);  // too small a share of a mesh
     // Where most of a mesh is as narrow, it would vanish.
-    const double least = std::min(least_voxel_m, percentile(wide, 0.5) / voxels_across);
-    const double affordable = std::sqrt(area_m2(mesh_) / most_wall_voxels);
-    return std::clamp(narrow / voxels_across, std::max(least, affordable), std::max(most_voxel_m, affordable));
+    const double least_m = std::min(least_voxel_m, percentile(wide, 0.5) / voxels_across);
+    const double affordable_m = std::sqrt(area_m2(mesh_) / most_wall_voxels);
+    result_.finest_m = std::max(least_m, affordable_m);
+    result_.voxel_m = std::clamp(narrow_m / voxels_across, result_.finest_m, std::max(most_voxel_m, result_.finest_m));
   }
 
   /// By finer voxels, if none were asked for and these fill no memory; else it is said.

@@ -9,11 +9,12 @@
 namespace ostium::vascular {
 
 struct RepairOptions {
-  double voxel_m = 0;                                ///< of the level set; 0: from the narrowest vessels
-  double longest_gap_m = 8e-3;                       ///< longer gaps are not bridged
-  bool smooth_noise = true;                          ///< where the surface is rough
-  std::size_t most_triangles = 200'000;              ///< of the result, about
-  std::function<void(const std::string&)> progress;  ///< reports each stage; may be empty
+  double voxel_m = 0;                                     ///< of the level set; 0: from the narrowest of the vessels
+  double narrowest_m = 0;                                 ///< diameter of a throat that is known; 0: of none
+  double longest_gap_m = 8e-3;                            ///< longer gaps are not bridged
+  bool smooth_noise = true;                               ///< where the surface is rough
+  std::size_t most_triangles = 200'000;                   ///< of the result, about
+  std::function<void(const std::string&)> progress = {};  ///< reports each stage; may be empty
 };
 
 /// One kind of repair: what, how often, and where (at most 16 positions).
@@ -29,7 +30,10 @@ struct RepairedMesh {
   std::vector<RepairNote> notes;
   std::vector<Eigen::Vector3d> ends;  ///< centres of real openings that were closed: where vessels were cut off
   double voxel_m = 0;
+  double finest_m = 0;  ///< the one that was asked for, or the finest that is chosen for this mesh
 };
+
+inline constexpr double voxels_across = 3.5;  ///< the narrowest vessels, where `voxel_m` is chosen
 
 constexpr double crumb_m3 = 8e-9;  ///< smaller lumens are dropped
 inline constexpr const char* too_small =
