@@ -35,8 +35,12 @@ std::vector<std::string> write_template(const std::string& kind, const std::stri
     for (const std::string& k : kinds) known += (known.empty() ? "" : ", ") + k;
     throw data::LoadError("there is no template of \"" + kind + "\"; there are " + known);
   }
+  return write_template_of("templates/" + kind, folder);
+}
+
+std::vector<std::string> write_template_of(const std::string& below_data, const std::string& folder) {
   std::vector<fs::path> files;
-  for (const fs::directory_entry& entry : fs::directory_iterator(templates_folder() / kind))
+  for (const fs::directory_entry& entry : fs::directory_iterator(fs::path(data::data_folder()) / below_data))
     files.push_back(entry.path());
   std::sort(files.begin(), files.end());
   std::vector<std::string> written;

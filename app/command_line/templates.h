@@ -12,5 +12,7 @@ std::vector<std::string> template_kinds();
 /// Copies the files of a kind's template to `folder` and returns their paths. Throws LoadError for an unknown kind, and
 /// WriteError; where one of the files is there already, nothing is written.
 std::vector<std::string> write_template(const std::string& kind, const std::string& folder);
+/// The same of any folder of files below data.
+std::vector<std::string> write_template_of(const std::string& below_data, const std::string& folder);
 
 }  // namespace ostium::app

@@ -22,6 +22,7 @@ Command run_command();
 Command serve_command();
 Command learn_command();
 Command report_command();
+Command study_command();
 Command scripts_command();
 Command sweep_command();
 Command dataset_command();
@@ -35,8 +36,8 @@ Command program() {
                         import_command(),  frame_command(),        inject_command(),     treat_command(),
                         views_command(),   picture_command(),      centreline_command(), predict_command(),
                         explain_command(), characterise_command(), run_command(),        serve_command(),
-                        learn_command(),   report_command(),       scripts_command(),    sweep_command(),
-                        dataset_command(), replay_command(),       device_command()};
+                        learn_command(),   report_command(),       study_command(),      scripts_command(),
+                        sweep_command(),   dataset_command(),      replay_command(),     device_command()};
   return ostium;
 }
 

@@ -10,6 +10,7 @@ namespace ostium::data {
 const std::vector<MetricDefinition>& metric_definitions() {
   static const std::vector<MetricDefinition> all = [] {
     std::vector<MetricDefinition> out = procedure_metrics();
+    for (MetricDefinition& d : movement_metrics()) out.push_back(std::move(d));
     for (MetricDefinition& d : treatment_metrics()) out.push_back(std::move(d));
     for (MetricDefinition& d : patient_metrics()) out.push_back(std::move(d));
     return out;

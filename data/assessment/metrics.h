@@ -1,6 +1,6 @@
 #pragma once
 /// Metrics of a run. A metric is a pure function of the recording's signals and events: one row in the table of
-/// procedure_metrics.cpp or treatment_metrics.cpp, its function above it, and its number in
+/// procedure_metrics.cpp or one of its kind, its function above it, and its number in
 /// tests/data/assessment/metrics_test.cpp.
 #include <cstdint>
 #include <functional>
@@ -36,6 +36,7 @@ struct MetricDefinition {
 };
 
 std::vector<MetricDefinition> procedure_metrics();          ///< time, radiation, forces, paths, handling
+std::vector<MetricDefinition> movement_metrics();           ///< how hands move, by part of the procedure
 std::vector<MetricDefinition> patient_metrics();            ///< the patient's answer, and how soon it was met
 std::vector<MetricDefinition> treatment_metrics();          ///< contrast, lesion, balloon, stent, flow, injury
 const std::vector<MetricDefinition>& metric_definitions();  ///< all, in the order of metrics.json

@@ -149,6 +149,14 @@ grep -q "tool_in" "$out/events.csv"
 expect 3 "2 recordings" "$ostium" report "$out/run.h5" "$out/run.h5" --code A -o "$out/none.html"
 expect 3 "no-such-list" "$ostium" report "$out/run.h5" --scoring no-such-list -o "$out/none.html"
 expect 0 "" "$ostium" report --questionnaire "$out/forms.html"
+expect 0 "protocol.md" "$ostium" study --template "$out/study"
+expect 3 "is there already" "$ostium" study --template "$out/study"
+"$ostium" report "$out/run.h5" "$out/run.h5" --code P01 P03-1 --csv "$out/study/runs.csv" --no-pictures -o "$out/run.html" >/dev/null
+expect 0 "study.html" "$ostium" study "$out/study/participants.csv" --runs "$out/study/runs.csv" -o "$out/study.html" --csv "$out/study.csv"
+expect 0 '"same_everywhere"' "$ostium" study "$out/study/participants.csv" --runs "$out/study/runs.csv" -o "$out/study.html" --json
+expect 3 "is no participant's code" "$ostium" study "$out/study/participants.csv" --runs "$out/runs.csv" -o "$out/none.html"
+expect 3 "nothing to compare" "$ostium" study "$out/study/participants.csv" -o "$out/none.html"
+[[ ! -e $out/none.html ]]
 SDL_VIDEODRIVER=dummy expect 1 "time limit" "$ostium" run rca-mid-focal --script iliac-wire --display window --seconds 0.5 --film --out "$out/shown" \
   --last-frame "$out/shown.png"
 [[ -s $out/shown.png ]]

@@ -132,6 +132,35 @@ RunRecord treated() {
   return r;
 }
 
+TEST(Metrics, OfHandsByPartOfTheProcedure) {
+  const RunRecord r = record();
+  EXPECT_EQ(value(r, "cannulation_movements"), 1);
+  EXPECT_NEAR(value(r, "cannulation_speed_mean_mm_s"), 50, 1e-9);
+  EXPECT_NEAR(value(r, "cannulation_path_ratio"), 1, 1e-9);
+  // A step to 50 mm/s behind a low pass: the sum of a geometric series, over 2.89 s.
+  const double share = 1 - std::exp(-2 * 3.14159265358979 * 2 * 0.01);
+  EXPECT_NEAR(value(r, "cannulation_acceleration_mm_s2"), std::sqrt(2500 * share / 0.01 / (2 - share) / 2.89), 1e-6);
+  EXPECT_EQ(value(r, "wiring_movements"), 1) << "there and back without a rest";
+  EXPECT_NEAR(value(r, "wiring_speed_mean_mm_s"), 75, 1e-9) << "50 mm in, 100 mm back";
+  EXPECT_NEAR(value(r, "wiring_path_ratio"), 1, 1e-9);
+  EXPECT_TRUE(std::isnan(value(r, "treatment_movements"))) << "nothing was inflated";
+}
+
+/// Five times 0.3 s at 20 mm/s; rests of 0.2 s are none, those of 0.3 s are.
+TEST(Metrics, HandsThatRestMoveOften) {
+  for (const auto& [rest_s, wanted] : {std::pair{0.2, 1}, std::pair{0.3, 5}}) {
+    RunRecord r = record();
+    r.events = {0, double(code(EventCode::tool_in)), 0, 0};
+    double inserted = 0;
+    for (std::size_t i = 0; i < r.rows(); ++i) {
+      const double in_turn = std::fmod(0.01 * static_cast<double>(i), 0.3 + rest_s);
+      if (i > 0 && in_turn < 0.295 && 0.01 * static_cast<double>(i) < 5 * (0.3 + rest_s) - 1e-6) inserted += 0.2;
+      r.signals[i * r.signal_columns.size() + 2] = inserted;
+    }
+    EXPECT_EQ(value(r, "cannulation_movements"), wanted) << rest_s;
+  }
+}
+
 TEST(Metrics, OfATreatmentMadeByHand) {
   const RunRecord r = treated();
   EXPECT_NEAR(value(r, "residual_stenosis_percent"), 5, 1e-9);
@@ -233,7 +262,7 @@ TEST(Metrics, NamesAreSnakeCaseWithTheirUnitLast) {
   for (const MetricDefinition& d : metric_definitions()) {
     EXPECT_TRUE(names.insert(d.name).second) << d.name;
     std::string ending = d.unit == "1" ? "" : "_" + d.unit;
-    for (char& c : ending) c = c == ' ' ? '_' : c;
+    for (char& c : ending) c = c == ' ' || c == '/' ? '_' : c;
     if (d.unit == "%") ending = "_percent";
     EXPECT_TRUE(d.name.ends_with(ending)) << d.name;
     EXPECT_FALSE(d.definition.empty());
