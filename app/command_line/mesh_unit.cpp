@@ -75,6 +75,15 @@ MeshUnit unit_of(const std::vector<std::string>& files, const vascular::Mesh& ra
   return unit;
 }
 
+void require_known(const std::string& file, const MeshUnit& unit) {
+  if (unit.known()) return;
+  constexpr double mm = 1e-3;
+  throw vascular::MeshError(fmt::format(
+      "{}: no unit makes a vessel of this: as {} it spans {:.3g} mm, and is {:.3g} mm wide; if it is one, say "
+      "its unit with --units",
+      file, name_of(unit.unit), unit.extent_m / mm, unit.calibre_m / mm));
+}
+
 Eigen::Vector3d point_of(const vascular::Mesh& mesh, vascular::LengthUnit unit, const std::string& text) {
   Eigen::AlignedBox3d box;
   for (const Eigen::Vector3d& p : mesh.vertices) box.extend(p);

@@ -12,6 +12,8 @@ struct MeshUnit {
 
   bool known() const { return source != Source::none; }
 };
+/// Throws MeshError where no unit makes a vessel of it.
+void require_known(const std::string& file, const MeshUnit& unit);
 
 /// Of `raw`: the files' numbers taken as metres, nothing welded. What the user said goes first ("auto": nothing), then
 /// what the files say, then the size of the vessels: of a wall, of the lumen inside it. Throws MeshError if several

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <map>
 
+#include "app/command_line/interrupt.h"
 #include "data/formats/load_error.h"
 
 namespace ostium::app {
@@ -66,6 +67,8 @@ fluoro::Renderer renderer_named(const std::string& name) {
 }
 
 bool finish_film(std::optional<data::VideoWriter>& writer, const char* command) {
+  if (interrupted && writer)
+    fmt::print(stderr, "ostium {}: ended early; the film has what there was until then\n", command);
   if (!writer || writer->finish()) return true;
   fmt::print(stderr, "ostium {}: {}\n", command, writer->problem());
   return false;

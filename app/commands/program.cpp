@@ -21,6 +21,7 @@ Command characterise_command();
 Command run_command();
 Command serve_command();
 Command learn_command();
+Command play_command();
 Command report_command();
 Command study_command();
 Command scripts_command();
@@ -32,12 +33,12 @@ Command device_command();
 Command program() {
   Command ostium = demonstration();
   // In the order of --help.
-  ostium.subcommands = {verify_command(),  instruments_command(),  cases_command(),      check_command(),
-                        import_command(),  frame_command(),        inject_command(),     treat_command(),
-                        views_command(),   picture_command(),      centreline_command(), predict_command(),
-                        explain_command(), characterise_command(), run_command(),        serve_command(),
-                        learn_command(),   report_command(),       study_command(),      scripts_command(),
-                        sweep_command(),   dataset_command(),      replay_command(),     device_command()};
+  ostium.subcommands = {
+      verify_command(),     instruments_command(), cases_command(),   check_command(),        import_command(),
+      frame_command(),      inject_command(),      treat_command(),   views_command(),        picture_command(),
+      centreline_command(), predict_command(),     explain_command(), characterise_command(), run_command(),
+      serve_command(),      learn_command(),       play_command(),    report_command(),       study_command(),
+      scripts_command(),    sweep_command(),       dataset_command(), replay_command(),       device_command()};
   return ostium;
 }
 

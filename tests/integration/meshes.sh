@@ -100,8 +100,16 @@ expect 0 "0.100 s" "$ostium" replay "$folder/run/run.h5" --from 0.1 --pixels 64 
 expect 3 "no blood flows" "$ostium" replay "$folder/run/run.h5" --monitor --video "$folder/none.mp4"
 sed -i -E 's/("access_mm": \[[^,]*, [^,]*\.)./\19/' "$folder/throat/anatomy.json"
 for command in "replay --png $folder/moment.png" "report -o $folder/report.html"; do
-  expect 3 "not those that the run was made in" "$ostium" $command "$folder/run/run.h5"
+  expect 3 "have changed since" "$ostium" $command "$folder/run/run.h5"
 done
+
+# Instruments that the vessel has no room for, and ways in that lead into its wall.
+awk '/^v/ { print "v", $2 / 3, $3 / 3, $4; next } { print }' "$folder/closed.obj" >"$folder/thin.obj"
+sed 's/wire-014-workhorse/guide-jr4-6f/' "$folder/still.json" >"$folder/thick.json"
+way_in=(--units mm --entry 0,0,10 --towards)
+expect 3 "mm wide where instruments come in, and wire is 2" "$ostium" run "$folder/thin.obj" --script "$folder/thick.json" "${way_in[@]}" 0,0,20
+expect 0 "leads into the wall after 1.5 mm" "$ostium" run "$folder/closed.obj" --script "$folder/still.json" "${way_in[@]}" 1,0,10
+expect 3 "is a mesh; expected a case" "$ostium" frame "$folder/throat.obj" -o "$folder/none.png"
 
 # What is not an import's own is never lost to one.
 echo mine >"$folder/mine.txt"

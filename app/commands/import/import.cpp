@@ -225,11 +225,7 @@ class Import {
     made_.triangles = static_cast<int>(raw.triangles.size());
     progress_(fmt::format("{} triangles; looking for their unit", made_.triangles));
     made_.unit = unit_of(files, raw, options_.unit);
-    if (!made_.unit.known())
-      throw vascular::MeshError(fmt::format(
-          "{}: no unit makes a vessel of this: as {} it spans {:.3g} mm, and is {:.3g} mm wide; if it is one, say its "
-          "unit with --units",
-          files.front(), name_of(made_.unit.unit), made_.unit.extent_m / mm, made_.unit.calibre_m / mm));
+    require_known(files.front(), made_.unit);
     rounding_m_ = metres(made_.unit.unit) * rounding_step(raw);
     return made_.unit.unit;
   }

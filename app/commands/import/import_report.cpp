@@ -68,9 +68,10 @@ Json report_of(const Imported& x) {
           {"heart_rms_mm", x.found.heart_rms_m / mm},
           {"aorta_doubt", doubt(x.found.aorta_doubt)},
           {"heart_doubt", doubt(x.found.heart_doubt)},
-          {"axes_from", x.axes.letters.empty() ? "anatomy"
-                        : x.axes.said_by_file  ? "file"
-                                               : "option"},
+          {"axes_from", x.axes.said_by_file                                  ? "file"
+                        : !x.axes.letters.empty()                            ? "option"
+                        : x.found.aorta_rms_m > 0 || x.found.heart_rms_m > 0 ? "anatomy"
+                                                                             : "none"},
           {"axes", {{R(0, 0), R(0, 1), R(0, 2)}, {R(1, 0), R(1, 1), R(1, 2)}, {R(2, 0), R(2, 1), R(2, 2)}}},
           {"origin_mm", {x.found.shift_P.x() / mm, x.found.shift_P.y() / mm, x.found.shift_P.z() / mm}},
           {"branches", branches},

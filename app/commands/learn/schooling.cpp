@@ -60,6 +60,7 @@ ServeArguments Schooling::serving_of(std::size_t place) const {
   ServeArguments serving;
   serving.session.vessel = lesson.case_name, serving.session.script = lesson.script;
   if (lesson.person) serving.session.set.push_back(fmt::format("person={}", *lesson.person));
+  serving.session.set.insert(serving.session.set.end(), lesson.set.begin(), lesson.set.end());
   if (!lesson.begin.empty()) serving.session.set.push_back("begin=" + lesson.begin);
   serving.hands = "browser", serving.scoring = lesson.scoring, serving.report = false;
   serving.lesson = {fmt::format("{} of {}: {}", place + 1, course_.lessons.size(), lesson.title),
@@ -98,7 +99,7 @@ CourseBoard Schooling::board(std::optional<std::size_t> at) const {
                               one.value("seconds", 0.0), one.value("hints_asked", 0),
                               one.value("missed", std::vector<std::string>{})});
     own.done = progress_.done(lesson.name);
-    own.locked = !before && own.attempts.empty();
+    own.locked = course_.in_order && !before && own.attempts.empty();
     own.goes_on = progress_.unfinished(lesson.name).has_value();
     before = own.done;
     if (!own.done) board.next = std::min(board.next, i);
@@ -109,7 +110,7 @@ CourseBoard Schooling::board(std::optional<std::size_t> at) const {
 
 void Schooling::tell_problem(const std::string& what) {
   problem_ = what;
-  fmt::print(stderr, "ostium learn: {}\n", what);
+  fmt::print(stderr, "ostium: {}\n", what);
 }
 
 /// Of the progress. What cannot be written is written with the next change.

@@ -45,7 +45,9 @@ RunSetup setup_of(const SessionArguments& a) {
       throw data::LoadError(a.vessel +
                             " is a mesh: --entry X,Y,Z and --towards X,Y,Z say where an instrument comes in");
     const auto raw = read_mesh(a.vessel, vascular::LengthUnit::metre, 0).mesh;
-    const vascular::LengthUnit unit = unit_of({a.vessel}, raw, a.unit).unit;
+    const MeshUnit found = unit_of({a.vessel}, raw, a.unit);
+    require_known(a.vessel, found);
+    const vascular::LengthUnit unit = found.unit;
     set_vessel(a.vessel, unit, setup);
     setup.entry = {point(a.entry, "--entry", unit), point(a.towards, "--towards", unit)};
   } else if (!a.entry.empty() || !a.towards.empty()) {

@@ -112,7 +112,9 @@ void reset(BatchHandle& self, std::optional<py::ssize_t> which, const py::object
   const InUse used(self.used, "Batch");
   std::size_t first = 0, last = self.runs.size();
   if (which) first = index(self, *which), last = first + 1;
-  if (!to.is_none() && !py::isinstance<py::int_>(to)) {
+  // Also a whole number of numpy, as its generators draw them.
+  const bool whole = PyIndex_Check(to.ptr()) && !PyBool_Check(to.ptr()) && !py::isinstance<py::array>(to);
+  if (!to.is_none() && !whole) {
     const auto state = Doubles::of(to);
     if (!state || state->ndim() != 1)
       throw py::value_error("to is no seed and no state; expected a whole number from 0 on, or what get_state gave");

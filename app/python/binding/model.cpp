@@ -141,7 +141,10 @@ void ModelHandle::put_state(const app::SessionState& state, double* numbers) con
 }
 
 const double* ModelHandle::state_of(const double* numbers, std::size_t count) const {
-  if (count != state_size() || numbers[0] != fingerprint)
+  if (count != state_size())
+    throw py::value_error(fmt::format(
+        "a state has {} numbers here, and this has {}; expected what get_state gave, float64", state_size(), count));
+  if (numbers[0] != fingerprint)
     throw py::value_error("this is a state of another model; expected one of the same vessel, tools and options");
   if (numbers[1] != checksum(numbers + head, count - head))
     throw py::value_error("this state is not as get_state gave it; states cannot be edited");

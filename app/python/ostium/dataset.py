@@ -98,6 +98,12 @@ def make(tasks: Iterable[Mapping[str, Any]], folder: Union[str, Path], every_s: 
     tasks, folder = list(tasks), Path(folder)
     if dicom:
         _require_dicom()
+    if not tasks:
+        raise ValueError("there are no tasks; expected one or more of ostium.sweep.tasks")
+    if not 64 <= pixels <= 1024:
+        raise ValueError(f"pixels is {pixels}; expected 64 to 1024")
+    if not 0.05 <= every_s <= 3600:
+        raise ValueError(f"every_s is {every_s}; expected 0.05 to 3600 seconds")
     for below in ("images", "masks", "depth", "runs"):
         (folder / below).mkdir(parents=True, exist_ok=True)
     with _claim(folder, _identity(tasks, every_s, pixels, dicom)):

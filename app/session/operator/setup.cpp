@@ -223,20 +223,41 @@ std::shared_ptr<const Vessel> make_vessel(const RunSetup& setup, std::string& wa
   } else {
     const data::Case c = data::read_case(setup.vessel + ".json", setup.case_text);
     if (!setup.shape.empty() && setup.shape != shape_of(c))
-      throw data::LoadError(setup.vessel +
-                            ": its vessels are not those that the run was made in; expected the case as it was then, "
-                            "import it again as it was");
+      throw data::LoadError(
+          setup.vessel +
+          ": its vessels have changed since; expected the case as it was then: import it again as it was");
     vessel = vessel_of(c, setup.person);
   }
   malloc_trim(0);  // returns the memory used while building to the system
   return vessel;
 }
 
+namespace {
+
+/// Of what comes in through the vessel's own entry: what is too thick would be forced into the wall.
+void require_room(const std::vector<SessionTool>& tools, const Vessel& vessel) {
+  constexpr double near_m = 10e-3;  // at its end, a vessel is measured too narrow
+  double widest_m = 0;
+  for (const vascular::TreeBranch& branch : vessel.way->branches())
+    for (const vascular::TreeSphere& sphere : branch.spheres)
+      if ((sphere.p - vessel.entry.p_W).norm() < near_m + sphere.radius_m)
+        widest_m = std::max(widest_m, 2 * sphere.radius_m);
+  for (const SessionTool& tool : tools)
+    if (widest_m > 0 && tool.instrument.outer_diameter_m > widest_m)
+      throw data::LoadError(fmt::format(
+          "{}: is {:.2f} mm wide where instruments come in, and {} is {:.2f} mm thick; expected a thinner one, another "
+          "entry, or another unit of the mesh",
+          vessel.name, 1e3 * widest_m, tool.name, 1e3 * tool.instrument.outer_diameter_m));
+}
+
+}  // namespace
+
 SessionModel make_session(const RunSetup& setup, std::shared_ptr<const Vessel> vessel) {
   std::vector<SessionTool> tools;
   for (std::size_t t = 0; t < setup.script.tools.size(); ++t)
     tools.push_back({setup.script.tools[t].name, data::read_instrument(setup.tool_files[t], setup.tool_texts[t]),
                      setup.script.tools[t].over});
+  if (setup.begin.empty()) require_room(tools, *vessel);
   std::vector<vascular::Drug> drugs;
   for (std::size_t d = 0; d < setup.drug_texts.size(); ++d)
     drugs.push_back(data::read_drug(setup.drug_files[d], setup.drug_texts[d]));

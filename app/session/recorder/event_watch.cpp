@@ -88,8 +88,9 @@ void EventWatch::look_at_stents(const SessionModel& model, const SessionState& s
     const vascular::StentState& own = state.treatment.stents[i];
     const vascular::StentState::Where where = own.where;
     if (where == stents_[i]) continue;
-    const auto at = model.vessel->coronaries->lesions.empty() ? std::nullopt
-                                                              : stent_from_lesion_m(model, state, static_cast<int>(i));
+    std::optional<double> at;  // from the first lesion in whose artery it lies
+    for (int lesion = 0; !at && lesion < static_cast<int>(model.vessel->coronaries->lesions.size()); ++lesion)
+      at = stent_from_lesion_m(model, state, static_cast<int>(i), lesion);
     if (where != vascular::StentState::deployed || own.branch < 0)
       say(data::EventCode::stent_lost, -1, 0);
     else if (at)

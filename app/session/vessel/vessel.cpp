@@ -8,6 +8,7 @@
 #include "core/math/alignment.h"
 #include "data/formats/load_error.h"
 #include "vascular/geometry/centreline/centreline.h"
+#include "vascular/geometry/mesh/bounding_volume_hierarchy.h"
 #include "vascular/geometry/mesh/patient_frame.h"
 #include "vascular/geometry/mesh/surface_check.h"
 #include "vascular/geometry/repair/repair.h"
@@ -172,6 +173,25 @@ core::EndState entry_ahead_of(const std::string& artery, const Vessel& vessel) {
                         "\" that leaves the aorta; expected one of: " + known);
 }
 
+namespace {
+
+/// A word about an entry that leads into a wall; "": it leads along the vessel.
+std::string doubt_of_entry(const vascular::Mesh& mesh, const MeshEntry& entry, const Vessel& vessel) {
+  const int sphere = vessel.way->nearest(entry.p_P);
+  double radius_m = 0;
+  for (const vascular::TreeBranch& branch : vessel.way->branches())
+    for (const vascular::TreeSphere& s : branch.spheres)
+      if ((s.p - vessel.way->p(sphere, 0)).norm() < 1e-9) radius_m = s.radius_m;
+  const Vector3d along = (entry.towards_P - entry.p_P).normalized();
+  const auto hits = vascular::BoundingVolumeHierarchy(mesh).hits(entry.p_P + 1e-6 * along, along, 1.5 * radius_m);
+  if (hits.empty()) return "";
+  return fmt::format(
+      "the entry leads into the wall after {:.1f} mm; a point further along the vessel as --towards leads on\n",
+      1e3 * hits.front().distance_m);
+}
+
+}  // namespace
+
 std::shared_ptr<const Vessel> vessel_of(const std::string& name, vascular::Mesh mesh, const MeshEntry& entry,
                                         std::string& warnings) {
   if (volume_m3(mesh) < 0) {
@@ -213,6 +233,7 @@ std::shared_ptr<const Vessel> vessel_of(const std::string& name, vascular::Mesh 
   vessel->way =
       std::make_unique<const VesselIndex>(std::vector<vascular::SphereTree>{find_centrelines(mesh, options).tree},
                                           entry.p_P, std::vector<std::pair<std::string, Vector3d>>{});
+  warnings += doubt_of_entry(mesh, entry, *vessel);
   return vessel;
 }
 

@@ -16,6 +16,7 @@
 #include "data/catalogue/catalogue.h"
 #include "data/formats/paths.h"
 #include "data/formats/read_file.h"
+#include "vascular/geometry/mesh_files/formats.h"
 #include "vascular/motion/heart_cycle.h"
 #include "vascular/motion/tube_motion.h"
 
@@ -173,6 +174,8 @@ std::vector<Case> load_cases(std::vector<std::string>* unread) {
 }
 
 std::string case_file(const std::string& name) {
+  if (vascular::names_mesh(name) && is_file(name))
+    throw LoadError(name + ": is a mesh; expected a case: `ostium import` makes one of it");
   if (name.empty()) throw LoadError("a case has no name; expected that of a case (`ostium cases`), its file or folder");
   const fs::path shipped = fs::path(data_folder()) / "cases" / (name + ".json");
   for (const fs::path& file :

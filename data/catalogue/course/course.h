@@ -26,12 +26,14 @@ struct Lesson {
   std::string case_name, script, scoring;
   std::optional<std::uint64_t> person;
   std::string begin;                   ///< "LM" or "RCA": the guide's tip lies before it; empty: nothing is in yet
+  std::vector<std::string> set;        ///< "KEY=VALUE", as `ostium run --set` takes them
   std::vector<std::string> must_hold;  ///< ids of the scoring list's items
   int line = 0;                        ///< where `must_hold` stands
 };
 
 struct Course {
   std::string name, title, note, file;
+  bool in_order = true;  ///< a lesson opens once the one before it has been passed
   std::vector<Lesson> lessons;
 };
 
@@ -39,6 +41,9 @@ struct Course {
 Course read_course(const std::string& file, const std::string& text);
 /// data/courses/NAME.json, or a file.
 Course find_course(const std::string& name_or_file);
+/// Every case with the procedure that ships for it, in any order: the steps are those of the procedure's script. `set`:
+/// of every lesson.
+Course procedures_course(std::optional<std::uint64_t> person = {}, const std::vector<std::string>& set = {});
 /// Names in data/courses, sorted.
 std::vector<std::string> course_names();
 

@@ -15,6 +15,8 @@ inline const JsonObjectKeys root = {
      {"name", true, "the file's name without .json", json_type::text()},
      {"title", true, "what people call it, a text", json_type::text()},
      {"note", true, "what it is worth, a text", json_type::text()},
+     {"any_order", false, "true: every lesson is open from the beginning; else once the one before it has been passed",
+      json_type::boolean()},
      {"lessons", true, "a list of at least one, in their order", json_type::list_of(json_type::object("lesson"), 1)}}};
 
 inline const JsonObjectKeys lesson = {
@@ -27,6 +29,8 @@ inline const JsonObjectKeys lesson = {
      {"case", true, "a case of data/cases, or a file", json_type::text()},
      {"person", false, "a whole number from 0 on: another person with this case", json_type::whole(from_zero)},
      {"begin", false, "LM or RCA: the guide lies before it, ready", json_type::choice(beginnings)},
+     {"set", false, "what `ostium run --set` takes, a list: \"guide=guide-al1-6f\"",
+      json_type::list_of(json_type::text(), 1)},
      {"script", true, "a script whose instruments lie ready, and whose expert shows how", json_type::text()},
      {"scoring", true, "a scoring list of data/scoring, or a file", json_type::text()},
      {"must_hold", true, "ids of the list's items that must be done to go on",

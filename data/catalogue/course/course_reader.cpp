@@ -135,6 +135,7 @@ Lesson read_lesson(const JsonValue& value, Named& named) {
   lesson.instructions = read_instructions(object, *expert);
   if (object.has("person")) lesson.person = static_cast<std::uint64_t>(object.whole("person"));
   if (object.has("begin")) lesson.begin = course_keys::beginnings[object.choice("begin", course_keys::beginnings)];
+  if (object.has("set")) lesson.set = texts(object, "set");
   lesson.must_hold = texts(object, "must_hold");
   for (std::size_t i = 0; i < lesson.must_hold.size(); ++i)
     if (std::find(lesson.must_hold.begin(), lesson.must_hold.begin() + i, lesson.must_hold[i]) !=
@@ -154,6 +155,7 @@ Course read_course(const std::string& file, const std::string& text) {
   course.file = file;
   course.name = object.text("name"), course.title = object.text("title"), course.note = object.text("note");
   if (course.name != fs::path(file).stem().string()) object.refuse("name");
+  course.in_order = !(object.has("any_order") && object.boolean("any_order"));
   if (object.list("lessons").empty()) object.refuse("lessons");
   Named named;
   std::set<std::string> names;

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "data/assessment/score_list.h"
+#include "data/catalogue/case/case.h"
 #include "data/formats/load_error.h"
 
 namespace ostium::data {
@@ -20,19 +21,59 @@ const std::string good = R"({
       "case": "rca-mid-focal", "script": "iliac-wire", "scoring": "lesson-feed-and-turn",
       "must_hold": ["1"] } ] })";
 
+void expect_judged(const Course& course) {
+  for (const Lesson& lesson : course.lessons) {
+    const ScoreList list = find_score_list(lesson.scoring);
+    for (const std::string& id : lesson.must_hold)
+      EXPECT_TRUE(std::any_of(list.items.begin(), list.items.end(),
+                              [&](const ScoreItem& item) { return item.id == id && item.check; }))
+          << lesson.name << ", " << id;
+  }
+}
+
 TEST(Course, ThoseThatShipHaveWhatTheyName) {
   ASSERT_FALSE(course_names().empty());
   for (const std::string& name : course_names()) {
     const Course course = find_course(name);
     EXPECT_EQ(course.name, name);
-    for (const Lesson& lesson : course.lessons) {
-      const ScoreList list = find_score_list(lesson.scoring);
-      for (const std::string& id : lesson.must_hold)
-        EXPECT_TRUE(std::any_of(list.items.begin(), list.items.end(),
-                                [&](const ScoreItem& item) { return item.id == id && item.check; }))
-            << lesson.name << ", " << id;
-    }
+    EXPECT_TRUE(course.in_order);
+    expect_judged(course);
   }
+}
+
+/// Steps tick one after another, in the expert's order, from heparin to the last instrument that is drawn out.
+TEST(Course, EveryCaseIsALessonOfItsProcedure) {
+  const Course course = procedures_course(3, {"heart_rate=80"});
+  EXPECT_FALSE(course.in_order);
+  expect_judged(course);
+  std::size_t ships = 0;
+  for (const Case& c : load_cases()) ships += !c.imported;
+  EXPECT_EQ(course.lessons.size(), ships);
+  for (const Lesson& lesson : course.lessons) {
+    EXPECT_EQ(lesson.name, lesson.case_name + "-person-3");
+    EXPECT_EQ(lesson.set, std::vector<std::string>{"heart_rate=80"});
+    EXPECT_EQ(lesson.person, 3u);
+    EXPECT_GE(lesson.instructions.size(), 12u) << lesson.name;
+    EXPECT_LE(lesson.instructions.size(), 60u) << lesson.name;
+    int before = -1;
+    std::string texts;
+    for (const Instruction& one : lesson.instructions) {
+      EXPECT_TRUE(one.ticks()) << one.text;
+      EXPECT_GT(one.expert_step, before) << one.text;
+      before = one.expert_step, texts += one.text + "\n";
+    }
+    for (const char* step : {"Give heparin.", "Draw the J wire out.", "atm: stent opened"})
+      EXPECT_NE(texts.find(step), std::string::npos) << lesson.name << ":\n" << texts;
+  }
+}
+
+TEST(Course, LessonsMayBeOpenInAnyOrderAndSetWhatRunsSet) {
+  std::string text = good;
+  text.replace(text.find("\"lessons\""), 9, "\"any_order\": true, \"lessons\"");
+  text.replace(text.find("\"must_hold\""), 11, "\"set\": [\"heart_rate=90\"], \"must_hold\"");
+  const Course course = read_course("mine.json", text);
+  EXPECT_FALSE(course.in_order);
+  EXPECT_EQ(course.lessons[0].set, std::vector<std::string>{"heart_rate=90"});
 }
 
 /// Each lesson's case and script were read anew: 3,000 lessons took a minute.

@@ -62,6 +62,37 @@ TEST(Narrowings, ThreeDiametersApartTheyAreTwo) {
   EXPECT_NEAR(found[1].to_m - found[1].from_m, 3.5e-3, 1.1e-3);
 }
 
+/// Longer than what it is compared with beside it: by the whole branch.
+TEST(Narrowings, ALongOneIsAsDeepAsAShortOne) {
+  for (const double flat_mm : {0.0, 12.0, 25.0, 35.0}) {
+    const auto found = find_narrowings(branch_with([&](double s) {
+      return (2 - 0.004 * s) *
+             (1 - 0.7 * (std::fabs(s - 50) < flat_mm / 2 ? 1 : notch(std::fabs(s - 50), flat_mm / 2, 4)));
+    }));
+    ASSERT_EQ(found.size(), 1u) << flat_mm;
+    EXPECT_NEAR(found[0].stenosis, 0.7, 0.05) << flat_mm;
+    EXPECT_NEAR(found[0].to_m - found[0].from_m, 1e-3 * flat_mm + 4.3e-3, 1.5e-3) << flat_mm;
+  }
+  const auto cosine = find_narrowings(branch_with([](double s) { return 2 * (1 - 0.7 * notch(s, 50, 30)); }));
+  ASSERT_EQ(cosine.size(), 1u);
+  EXPECT_NEAR(cosine[0].stenosis, 0.7, 0.05);
+}
+
+/// Each lies where the other is compared with.
+TEST(Narrowings, OneBehindAnotherTheyAreAsDeepAsAlone) {
+  const auto found = find_narrowings(branch_with(
+      [](double s) { return 2 * (1 - 0.6 * notch(s, 38, 5) - 0.6 * notch(s, 62, 5) - 0.6 * notch(s, 80, 5)); }));
+  ASSERT_EQ(found.size(), 3u);
+  for (const FoundNarrowing& one : found) EXPECT_NEAR(one.stenosis, 0.6, 0.04) << one.at_m;
+}
+
+/// A vessel that is smaller behind a large branch, and stays so, is none.
+TEST(Narrowings, AVesselThatStaysSmallIsNone) {
+  EXPECT_TRUE(find_narrowings(branch_with([](double s) {
+                return s < 55 ? 1.8 : s < 60 ? 1.8 - 0.14 * (s - 55) : 1.1;
+              })).empty());
+}
+
 TEST(Narrowings, AHealthyVesselHasNone) {
   EXPECT_TRUE(find_narrowings(branch_with([](double s) { return 2 - 0.01 * s + 0.1 * std::sin(s); })).empty());
 }

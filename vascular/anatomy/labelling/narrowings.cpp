@@ -13,6 +13,10 @@ constexpr double widest_m = 4e-3;               // radius
 constexpr double most_taper = 1.5;
 /// Narrow places with less between them are one lesion: Sianos et al. 2005 (SYNTAX score), EuroIntervention 1:219.
 constexpr double apart_diameters = 3;
+constexpr double healthy_share = 0.85;  ///< of the branch's line: what is narrower has no part in it
+constexpr double bulging_share = 1.25;  ///< what is wider neither
+constexpr double first_share = 0.6;     ///< of the branch's median radius, and its inverse: the first round takes that
+constexpr int line_rounds = 8;
 
 double median_between(const TreeBranch& branch, double from, double to) {
   std::vector<double> radii;
@@ -21,6 +25,56 @@ double median_between(const TreeBranch& branch, double from, double to) {
   if (radii.size() < 3) return 0;
   std::nth_element(radii.begin(), radii.begin() + static_cast<long>(radii.size() / 2), radii.end());
   return radii[radii.size() / 2];
+}
+
+/// The healthy branch: a line through its radii, without those that lie well below it, or above.
+struct HealthyLine {
+  double radius_m = 0, per_m = 0;
+  double at(double s_m) const { return radius_m + per_m * s_m; }
+};
+
+/// Zero of a branch too short for one.
+HealthyLine line_of(const TreeBranch& branch) {
+  HealthyLine line{median_between(branch, 0, branch.spheres.back().s_m), 0};
+  for (int round = 0; round < line_rounds; ++round) {
+    const double least = round == 0 ? first_share : healthy_share, most = round == 0 ? 1 / first_share : bulging_share;
+    double n = 0, s = 0, r = 0, ss = 0, sr = 0;
+    for (const TreeSphere& sphere : branch.spheres) {
+      const double share = sphere.radius_m / line.at(sphere.s_m);
+      if (!(share >= least && share <= most)) continue;
+      n += 1, s += sphere.s_m, r += sphere.radius_m;
+      ss += sphere.s_m * sphere.s_m, sr += sphere.s_m * sphere.radius_m;
+    }
+    const double spread = n * ss - s * s;
+    if (n < 3 || !(spread > 0)) return {};
+    const double per_m = (n * sr - s * r) / spread;
+    line = {(r - per_m * s) / n, per_m};
+  }
+  return line;
+}
+
+/// Whether the branch is as wide as its line somewhere between two positions; never past its end, which tapers.
+bool is_wide(const TreeBranch& branch, const HealthyLine& line, double from, double to) {
+  const double last = branch.spheres.back().s_m - 2 * near_m;
+  for (double at = std::max(from, 0.0); at + near_m <= std::min(to, last); at += near_m / 2)
+    if (median_between(branch, at, at + near_m) >= healthy_share * line.at(at + near_m / 2)) return true;
+  return false;
+}
+
+/// Radius that a place would have if it were healthy: by what lies beside it; where that is narrow, too, by the whole
+/// branch, if it is wide on both sides. 0: nothing tells.
+double reference_at(const TreeBranch& branch, const HealthyLine& line, double s_m) {
+  const double before = median_between(branch, s_m - far_m, s_m - near_m);
+  const double behind = median_between(branch, s_m + near_m, s_m + far_m);
+  double reference = 0;
+  // An end tapers; a narrowing has wide vessel on both sides.
+  if (before > 0 && behind > 0 && behind >= 0.5 * before && before >= 0.5 * behind)
+    reference =
+        std::min(before, behind) * (1 + std::min(most_taper, std::max(before, behind) / std::min(before, behind))) / 2;
+  const double healthy = line.at(s_m);
+  if (reference >= healthy_share * healthy || healthy <= 0) return reference;
+  const double length = branch.spheres.back().s_m;
+  return is_wide(branch, line, 0, s_m) && is_wide(branch, line, s_m, length) ? healthy : reference;
 }
 
 /// As far as half of its own depth, where that is less than what makes it a narrowing: a mild one is not short for
@@ -43,15 +97,12 @@ std::vector<FoundNarrowing> find_narrowings(const SphereTree& tree, double least
   for (const TreeBranch& branch : tree.branches) {
     const double length = branch.spheres.back().s_m;
     const std::size_t before_it = found.size();
+    const HealthyLine line = line_of(branch);
     double last_m = -1;  // where the branch was narrow last; < 0: nowhere yet
     for (const TreeSphere& sphere : branch.spheres) {
-      const double before = median_between(branch, sphere.s_m - far_m, sphere.s_m - near_m);
-      const double behind = median_between(branch, sphere.s_m + near_m, sphere.s_m + far_m);
-      // An end tapers; a narrowing has wide vessel on both sides.
-      if (before <= 0 || behind <= 0 || sphere.s_m >= length - 2 * near_m || before >= widest_m) continue;
-      if (behind < 0.5 * before || before < 0.5 * behind) continue;
-      const double reference = std::min(before, behind) *
-                               (1 + std::min(most_taper, std::max(before, behind) / std::min(before, behind))) / 2;
+      if (sphere.s_m >= length - 2 * near_m) continue;
+      const double reference = reference_at(branch, line, sphere.s_m);
+      if (reference <= 0 || reference >= widest_m) continue;
       const double stenosis = 1 - sphere.radius_m / reference;
       if (stenosis < least) continue;
       FoundNarrowing here = {.branch = branch.name,

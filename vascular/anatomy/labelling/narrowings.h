@@ -17,7 +17,8 @@ struct FoundNarrowing {
 };
 
 /// In branches narrower than 8 mm: where the diameter is smaller, by the fraction `least` or more, than on both sides;
-/// next to a bulge, than on the side without.
+/// next to a bulge, than on the side without; where both sides are narrow, too, than the branch as a line, if it is as
+/// wide as that further on. Not within 8 mm of a branch's end, which tapers.
 std::vector<FoundNarrowing> find_narrowings(const SphereTree& tree, double least = 0.3);
 
 /// Diameter of the narrowest, m; 0: there is none.

@@ -68,16 +68,18 @@ class NavigationEnv(gymnasium.Env):
         who = patient(self.task, None if person is None else int(person))
         if who.person not in self._datas:
             self._datas[who.person] = ostium.Data(who.model)
-        self.data = self._datas[who.person]
+        data = self._datas[who.person]
+        self.data = self.course = None  # a reset that fails leaves no half of an episode to go on with
         for imager in self._imagers.values():
             imager.reset()
-        self.data.reset()
+        data.reset()
         # Where a state is given, the seed still decides on the target, but nothing is waited for.
-        who.begin(lambda to: self.data.reset(to) if np.isscalar(to) else self.data.set_state(to),
-                  self.data.step if state is None else lambda steps: None, self.np_random)
+        who.begin(lambda to: data.reset(to) if np.isscalar(to) else data.set_state(to),
+                  data.step if state is None else lambda steps: None, self.np_random)
         if state is not None:
-            self.data.set_state(state)
-        self.course = Course(self.task, who, self.np_random, *self._leading(), target)
+            data.set_state(state)
+        self.course = Course(self.task, who, self.np_random, data.nodes(who.leader), data.tip(who.leader), target)
+        self.data = data
         return self._observation(), self._info(reached=False, nan=0)
 
     def step(self, action):
@@ -85,7 +87,11 @@ class NavigationEnv(gymnasium.Env):
             raise RuntimeError("reset this environment before its first step")
         drives, nan = self.course.drives(action, self.physical)
         self.data.inputs[self.course.patient.driven] = drives
-        self.data.step(self.course.patient.hops)
+        try:
+            self.data.step(self.course.patient.hops)
+        except BaseException:  # an interrupt: the episode would go on with a step that is too short
+            self.data = self.course = None
+            raise
         reward, reached, truncated, _ = self.course.see(*self._leading(), self.data.phase,
                                                         float(self.data.peaks[self.course.patient.felt, 2].max()),
                                                         self.data.signals)
