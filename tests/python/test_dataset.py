@@ -96,6 +96,14 @@ def test_a_build_without_dicom_says_so_before_the_work(tmp_path, monkeypatch):
     assert not (tmp_path / "set").exists()
 
 
+def test_what_cannot_be_takes_no_folder(tmp_path):
+    tasks = ostium.sweep.tasks("rca-mid-focal", "rca-from-the-ostium", seeds=[1])
+    for arguments in (dict(tasks=tasks, pixels=63), dict(tasks=tasks, every_s=0.0), dict(tasks=[])):
+        with pytest.raises(ValueError, match="expected"):
+            ostium.dataset.make(folder=tmp_path / "set", **arguments)
+        assert not (tmp_path / "set").exists()
+
+
 def test_a_run_that_cannot_be_is_told_and_tried_again(tmp_path):
     tasks = ostium.sweep.tasks("rca-mid-focal", "rca-from-the-ostium", seeds=[1], values={"wire": "no-such-wire"})
     with pytest.raises(ostium.OstiumError, match="no-such-wire"):

@@ -185,6 +185,10 @@ def test_options_of_a_reset():
     assert time.process_time() - began < 20 * 0.02  # nothing is simulated on the way to a state
     with pytest.raises(ValueError, match="expected person, target, state"):
         env.reset(options={"case": 1})
+    with pytest.raises(ValueError):
+        env.reset(options={"target": "nowhere"})
+    with pytest.raises(RuntimeError, match="reset"):  # no half of an episode goes on
+        env.step(FORWARDS)
     with pytest.raises(ValueError, match="BasicWireNav"):
         NavigationEnv("NoSuchTask")
     with pytest.raises(ValueError, match="84 to 512"):

@@ -141,6 +141,11 @@ def test_a_batch_is_one_by_one(model, threads):
 
 def test_a_mask_leaves_the_others(model):
     batch = ostium.Batch(model, num=3)
+    batch.reset(0, np.int64(5))  # as numpy's generators draw them
+    for wrong in (True, np.array(5), 0.5):
+        with pytest.raises((ValueError, TypeError)):
+            batch.reset(0, wrong)
+    batch.reset()
     batch.inputs[:, 0] = FEED
     before = [batch.hash(i) for i in range(3)]
     batch.step(10, mask=np.array([True, False, True]))
@@ -226,7 +231,7 @@ def test_wrong_things_raise(model, vessel, data):
         ostium.rollout(model, [data.get_state()], np.zeros((1, 2, count), complex))
     with pytest.raises(ValueError, match=r"shape \(3,\); expected \(\d+,\)"):
         data.inputs = [0, 0, 0]
-    with pytest.raises(ValueError, match="another model"):
+    with pytest.raises(ValueError, match="and this has 5; expected what get_state gave"):
         data.set_state(np.zeros(5))
     edited = data.get_state()
     edited[100] += 1

@@ -86,8 +86,10 @@ int threads_or_all(std::optional<int> threads) {
 }
 
 std::uint64_t seed_of(const py::object& number) {
-  const unsigned long long seed = PyLong_AsUnsignedLongLong(number.ptr());
-  if (!PyErr_Occurred()) return seed;
+  if (const auto whole = py::reinterpret_steal<py::object>(PyNumber_Index(number.ptr()))) {
+    const unsigned long long seed = PyLong_AsUnsignedLongLong(whole.ptr());
+    if (!PyErr_Occurred()) return seed;
+  }
   PyErr_Clear();
   throw py::value_error("the seed is " + py::str(number).cast<std::string>() +
                         "; expected a whole number from 0 to 2^64 - 1");
