@@ -2,12 +2,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 
 #include "core/base/units.h"
 #include "data/catalogue/case/case.h"
 #include "data/catalogue/course/course.h"
-#include "data/formats/load_error.h"
 
 namespace ostium::data {
 
