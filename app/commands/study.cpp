@@ -36,7 +36,7 @@ void declare(Options& options, Arguments& a) {
 
 int run(const Arguments& a) {
   if (!a.to_begin_from.empty()) {
-    if (!a.participants.empty())
+    if (!a.participants.empty() || !a.runs.empty() || !a.answers.empty() || !a.csv.empty() || a.json)
       throw data::LoadError("--template writes files to begin from, and reads no study; expected one of them");
     for (const std::string& file : write_template_of("study/template", a.to_begin_from)) fmt::print("{}\n", file);
     return 0;

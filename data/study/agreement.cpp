@@ -1,5 +1,6 @@
 #include "data/study/agreement.h"
 
+#include <algorithm>
 #include <boost/math/distributions/fisher_f.hpp>
 #include <cassert>
 #include <cmath>
@@ -39,10 +40,14 @@ Agreement agreement(const std::vector<std::vector<double>>& values) {
   const auto n = static_cast<double>(out.participants), k = static_cast<double>(out.trials);
   const MeanSquares m = mean_squares(values);
   const double total = m.rows + (k - 1) * m.rest + k * (m.columns - m.rest) / n;
-  if (!(m.rows > 0) || !(total > 0)) return out;
+  double largest = 0;
+  for (const std::vector<double>& row : values)
+    for (const double x : row) largest = std::max(largest, std::fabs(x));
+  const double rounding = std::pow(1e-12 * largest, 2);
+  if (!(m.rows > rounding) || !(total > rounding) || !std::isfinite(total)) return out;
   out.icc = (m.rows - m.rest) / total;
   out.consistency = (m.rows - m.rest) / (m.rows + (k - 1) * m.rest);
-  if (!(m.rest > 0)) {
+  if (!(m.rest > rounding)) {
     out.low = out.high = out.icc;
     return out;
   }
@@ -50,10 +55,12 @@ Agreement agreement(const std::vector<std::vector<double>>& values) {
   const double columns = m.columns / m.rest, part = n * (1 + (k - 1) * out.icc) - k * out.icc;
   const double freedom = (k - 1) * (n - 1) * std::pow(k * out.icc * columns + part, 2) /
                          ((n - 1) * std::pow(k * out.icc * columns, 2) + part * part);
+  if (!(freedom > 0) || !std::isfinite(freedom)) return out;
   const double up = upper_F(n - 1, freedom), down = upper_F(freedom, n - 1),
                rest = k * m.columns + (k * n - k - n) * m.rest;
-  out.low = n * (m.rows - up * m.rest) / (up * rest + n * m.rows);
-  out.high = n * (down * m.rows - m.rest) / (rest + n * down * m.rows);
+  const double low = n * (m.rows - up * m.rest) / (up * rest + n * m.rows),
+               high = n * (down * m.rows - m.rest) / (rest + n * down * m.rows);
+  if (low <= out.icc && out.icc <= high && std::isfinite(high - low)) out.low = low, out.high = high;
   return out;
 }
 

@@ -53,7 +53,8 @@ std::optional<Agreement> agreement_of(const Trials& trials, std::size_t metric) 
     if (static_cast<int>(row.size()) == trials.common) rows.push_back(row);
   }
   if (trials.common < 2 || rows.size() < 2) return std::nullopt;
-  return agreement(rows);
+  const Agreement found = agreement(rows);
+  return std::isfinite(found.icc) ? std::optional(found) : std::nullopt;
 }
 
 std::vector<double> medians_by_trial(const Study& study, const Trials& trials, std::size_t metric,
@@ -126,6 +127,7 @@ std::vector<ComparedCase> compare(const Study& study) {
 std::vector<AnsweredStatement> statements_of(const Study& study) {
   std::vector<AnsweredStatement> out;
   for (const StudyAnswer& answer : study.answers) {
+    if (answer.answer == 0) continue;
     auto found = std::ranges::find_if(
         out, [&](const auto& s) { return s.part == answer.part && s.statement == answer.statement; });
     if (found == out.end()) {

@@ -25,7 +25,7 @@ struct ComparedMetric {
   std::string name;
   std::vector<GroupNumbers> groups;           ///< in the study's order
   std::vector<GroupPair> pairs;               ///< those whose groups have values
-  std::optional<Agreement> agreement;         ///< over trials; none of fewer than 2 participants with 2 trials
+  std::optional<Agreement> agreement;         ///< over trials; none where too few made the same, or do not differ
   std::vector<std::vector<double>> by_trial;  ///< [group][trial] medians; NaN: of none
 };
 

@@ -29,6 +29,15 @@ std::size_t column_in(const CsvTable& table, const std::string& file, const std:
   return static_cast<std::size_t>(found - table.columns.begin());
 }
 
+/// What stands twice would count once, whichever.
+void require_different_columns(const CsvTable& table, const std::string& file) {
+  for (std::size_t c = 0; c < table.columns.size(); ++c)
+    if (std::count(table.columns.begin(), table.columns.end(), table.columns[c]) > 1)
+      refuse_row(
+          file, table.header_line,
+          fmt::format("there are several columns \"{}\"; expected a name of its own for each", table.columns[c]));
+}
+
 std::size_t place_in(std::vector<std::string>& names, const std::string& name) {
   const auto found = std::ranges::find(names, name);
   if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
@@ -40,6 +49,7 @@ class StudyReader {
  public:
   void add_participants(const std::string& file) {
     const CsvTable table = load_csv(file, "code, group");
+    require_different_columns(table, file);
     const std::size_t code = column_in(table, file, "code"), group = column_in(table, file, "group");
     for (std::size_t c = 0; c < table.columns.size(); ++c)
       if (c != code && c != group) study_.about.push_back(table.columns[c]);
@@ -59,6 +69,7 @@ class StudyReader {
 
   void add_runs(const std::string& file) {
     const CsvTable table = load_csv(file, "code, case, outcome and metrics, as of `ostium report --csv`");
+    require_different_columns(table, file);
     const std::size_t code = column_in(table, file, "code"), of_case = column_in(table, file, "case"),
                       outcome = column_in(table, file, "outcome");
     std::vector<std::pair<std::size_t, std::size_t>> metrics;  // column, place
@@ -85,7 +96,7 @@ class StudyReader {
 
   void add_answers(const std::string& file) {
     for (const CsvRow& row : load_csv(file, {"code", "part", "statement", "answer", "remark"})) {
-      if (row.fields[3].empty()) continue;  // not answered
+      if (row.fields[3].empty() && row.fields[4].empty()) continue;  // not answered
       const auto found = of_code_.find(row.fields[0]);
       if (found == of_code_.end()) refuse_code(file, row.line, row.fields[0]);
       if (row.fields[1] == "about") {
@@ -93,9 +104,11 @@ class StudyReader {
         continue;
       }
       const std::optional<double> answer = decimal(row.fields[3]);
-      if (!answer || *answer != std::floor(*answer) || *answer < 1 || *answer > 5)
+      const bool remark_only = row.fields[3].empty();
+      if (!remark_only && (!answer || *answer != std::floor(*answer) || *answer < 1 || *answer > 5))
         refuse_row(file, row.line, fmt::format("the answer is \"{}\"; expected 1, 2, 3, 4 or 5", row.fields[3]));
-      const StudyAnswer one{found->second, row.fields[1], row.fields[2], row.fields[4], static_cast<int>(*answer)};
+      const StudyAnswer one{found->second, row.fields[1], row.fields[2], row.fields[4],
+                            static_cast<int>(answer.value_or(0))};
       for (const StudyAnswer& other : study_.answers)
         if (other.participant == one.participant && other.part == one.part && other.statement == one.statement)
           refuse_row(file, row.line,

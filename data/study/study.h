@@ -22,7 +22,7 @@ struct StudyRun {
 struct StudyAnswer {
   std::size_t participant = 0;
   std::string part, statement, remark;
-  int answer = 0;
+  int answer = 0;  ///< 0: none, but a remark
 };
 
 struct Study {

@@ -74,7 +74,8 @@ std::string participants_table(const Study& study) {
 double least_p(std::size_t n, std::size_t m) {
   double ways = 1;
   for (std::size_t k = 1; k <= n; ++k) ways *= static_cast<double>(m + k) / static_cast<double>(k);
-  return std::min(1.0, 2 / ways);
+  // Of groups of one size the other side is as likely; else, with ties, it may have nothing as far out.
+  return std::min(1.0, (n == m ? 2 : 1) / ways);
 }
 
 std::string power_note(const Study& study) {
@@ -109,10 +110,12 @@ std::string metric_row(const Study& study, const ComparedMetric& m) {
         m.groups.size() > 2 ? escaped(study.groups[pair.a]) + " and " + escaped(study.groups[pair.b]) + ": " : "",
         p_text(pair.test.p), pair.test.exact ? "" : " (normal)", p_text(pair.holm), 100 * pair.test.superiority);
   out += "<td>" + pairs + "</td>";
-  return out + (m.agreement ? fmt::format("<td class=\"n\">{:.2f} [{:.2f} to {:.2f}]<br>{} in {} trials</td></tr>\n",
-                                          m.agreement->icc, m.agreement->low, m.agreement->high,
-                                          m.agreement->participants, m.agreement->trials)
-                            : "<td class=\"n open\">one trial</td></tr>\n");
+  if (!m.agreement) return out + "<td class=\"n open\">cannot be told</td></tr>\n";
+  const Agreement& agreed = *m.agreement;
+  const std::string interval =
+      std::isfinite(agreed.low) ? fmt::format("[{:.2f} to {:.2f}]", agreed.low, agreed.high) : "(no interval)";
+  return out + fmt::format("<td class=\"n\">{:.2f} {}<br>{} in {} trials</td></tr>\n", agreed.icc, interval,
+                           agreed.participants, agreed.trials);
 }
 
 double surest(const ComparedMetric& m) {

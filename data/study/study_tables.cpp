@@ -41,7 +41,7 @@ Json json_of(const Study& study, const ComparedMetric& m) {
                             {"holm_p", pair.holm}});
   if (m.agreement)
     out["agreement"] = {{"icc", m.agreement->icc},
-                        {"interval", {m.agreement->low, m.agreement->high}},
+                        {"interval", {json_or_null(m.agreement->low), json_or_null(m.agreement->high)}},
                         {"consistency", m.agreement->consistency},
                         {"participants", m.agreement->participants},
                         {"trials", m.agreement->trials}};

@@ -98,7 +98,18 @@ TEST(Agreement, IsThatOfThePublishedExample) {
 
 TEST(Agreement, OfWhatIsRepeatedExactlyIsOne) {
   EXPECT_NEAR(agreement({{1, 1}, {2, 2}, {5, 5}}).icc, 1, 1e-12);
-  EXPECT_EQ(agreement({{3, 3}, {3, 3}}).icc, 0);
+  EXPECT_TRUE(std::isnan(agreement({{3, 3}, {3, 3}}).icc));
+  EXPECT_TRUE(std::isnan(agreement({{0.1, 0.3, 0.7}, {0.1, 0.3, 0.7}}).icc)) << "rounding is no difference";
+}
+
+/// Small whole numbers, as errors are counted: no degree of freedom is left, or no bound.
+TEST(Agreement, WithoutAnIntervalItHasNone) {
+  for (const std::vector<std::vector<double>>& trials : std::vector<std::vector<std::vector<double>>>{
+           {{0, 2, 2}, {0, 2, 2}, {2, 2, 0}}, {{37, 32, 25}, {37, 25, 32}, {25, 32, 37}}, {{1, 2}, {2, 1}, {1, 2}}}) {
+    const Agreement found = agreement(trials);
+    EXPECT_EQ(std::isnan(found.low), std::isnan(found.high));
+    EXPECT_TRUE(std::isnan(found.low) || (found.low <= found.icc && found.icc <= found.high));
+  }
 }
 
 class StudyTables : public testing::Test {
@@ -133,7 +144,7 @@ class StudyTables : public testing::Test {
 TEST_F(StudyTables, AParticipantCountsOnceWithTheMedianOfTheTrials) {
   const std::string answers =
       "code,part,statement,answer,remark\nP01,face,It looks right.,4,\"=1+1, odd\"\nP03,face,It looks right.,2,\n"
-      "P01,about,Years,3,\nP03,about,Years,12,\nP04,face,It looks right.,,\n";
+      "P01,about,Years,3,\nP03,about,Years,12,\nP04,face,It looks right.,,only a remark\n";
   const Study study = read_study(put("p.csv", people_), {put("r.csv", runs_)}, {put("a.csv", answers)});
   ASSERT_EQ(study.metrics, (std::vector<std::string>{"procedure_time_s", "handling_errors"}));
   const std::vector<ComparedCase> compared = compare(study);
@@ -152,7 +163,8 @@ TEST_F(StudyTables, AParticipantCountsOnceWithTheMedianOfTheTrials) {
   EXPECT_EQ(statements[0].counts[0], (std::vector<int>{0, 0, 0, 1, 0}));
   EXPECT_EQ(statements[0].median, 3);
   const std::string page = study_page(study, compared);
-  for (const char* words : {"Years", "3 [3 to 3]", "557.5", "no p below 0.33", "not yet what makes a score valid"})
+  for (const char* words :
+       {"Years", "3 [3 to 3]", "557.5", "only a remark", "no p below 0.33", "not yet what makes a score valid"})
     EXPECT_NE(page.find(words), std::string::npos) << words;
   const auto json = nlohmann::json::parse(study_json(study, compared));
   EXPECT_EQ(json["cases"][0]["metrics"][0]["groups"][1]["median"], 297.5);
@@ -172,6 +184,7 @@ TEST_F(StudyTables, WhatIsWrongIsNamedWithItsLine) {
   says(refusal(people_, "code,case,outcome,x\nP01-0,c,success,1\n"), "r.csv:2: \"P01-0\" is no participant's code");
   says(refusal(people_, "code,case,outcome,x\nP01,c,success,1\nP01-1,c,success,1\n"), "r.csv:3: trial 1 of P01 in c");
   says(refusal(people_, "code,case,outcome,x\nP01,c,success,fast\n"), "r.csv:2");
+  says(refusal(people_, "code,case,outcome,x,x\nP01,c,success,1,2\n"), "r.csv:1: there are several columns \"x\"");
   says(refusal(people_, runs_, "code,part,statement,answer,remark\nP01,face,s,6,\n"), "a.csv:2: the answer is \"6\"");
   says(refusal(people_, runs_, "code,part,statement,answer,remark\nP01,face,s,1,\nP01,face,s,2,\n"),
        "a.csv:3: P01 has answered \"s\" already");
