@@ -5,7 +5,6 @@
 
 #include "core/base/units.h"
 #include "data/formats/load_error.h"
-#include "fluoro/projection/views.h"
 
 namespace ostium::app {
 
@@ -18,12 +17,10 @@ constexpr double seen = 0.15, filled = 0.5;  // relative to the darkness of a fu
 
 }  // namespace
 
-fluoro::View view_of(const std::string& standard_view, const vascular::Patient& patient, bool left, int pixels) {
-  const auto named = fluoro::find_view(standard_view);
-  if (!named) throw data::LoadError("there is no view \"" + standard_view + "\"; `ostium views` lists them");
+fluoro::View view_of(const fluoro::StandardView& named, const vascular::Patient& patient, bool left, int pixels) {
   using units::degree;
   fluoro::View view;
-  view.arm.lao_rad = degree * named->lao_deg, view.arm.cran_rad = degree * named->cran_deg;
+  view.arm.lao_rad = degree * named.lao_deg, view.arm.cran_rad = degree * named.cran_deg;
   view.pixels = pixels;
   Eigen::Vector3d low = Eigen::Vector3d::Constant(1e9), high = -low;
   for (const vascular::TreeBranch& b : patient.tree.branches) {
@@ -198,7 +195,8 @@ TimiCount timi_count(const vascular::PhysiologyModel& model, PatientScene& scene
   const int end = timi_landmark(tree, artery);
   if (end < 0) return {};
   vascular::PhysiologyState state = at_rest;
-  const fluoro::View view = view_of(artery == "LAD" ? "rao-cranial" : left ? "rao-caudal" : "lao", patient, left, 512);
+  const auto named = fluoro::find_view(artery == "LAD" ? "rao-cranial" : left ? "rao-caudal" : "lao");
+  const fluoro::View view = view_of(*named, patient, left, 512);
   Angiogram angiogram(model, scene, view, 30);
   angiogram.wait_for(start_phase, rate_1_min, state);
   const Injection injection = usual_injection(tree, left);

@@ -7,11 +7,12 @@
 #include "app/angiography/patient_scene.h"
 #include "data/catalogue/case/case.h"
 #include "fluoro/console/fluoroscope.h"
+#include "fluoro/projection/views.h"
 
 namespace ostium::app {
 
 /// The isocentre as an operator sets it: the middle of the coronaries is in the middle of the picture.
-fluoro::View view_of(const std::string& standard_view, const vascular::Patient& patient, bool left, int pixels);
+fluoro::View view_of(const fluoro::StandardView& named, const vascular::Patient& patient, bool left, int pixels);
 
 struct Injection {
   vascular::TipPlace tip;

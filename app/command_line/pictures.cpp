@@ -16,7 +16,7 @@ void add_angle_options(Options& options, ViewArguments& arguments) {
 }
 
 void add_view_option(Options& options, std::string& view) {
-  options.add("--view", view, "Standard view, see `ostium views`; else the artery's usual one");
+  options.add("--view", view, "Standard view (`ostium views`), or one of the case's; else the artery's usual one");
 }
 
 void add_pixels_option(Options& options, int& pixels, int smallest) {
@@ -39,9 +39,14 @@ void add_renderer_option(Options& options, std::string& renderer) {
   options.add("--renderer", renderer, "What draws path lengths").one_of(fluoro::renderer_names).show_default();
 }
 
-fluoro::StandardView named_view(const std::string& name) {
+fluoro::StandardView named_view(const std::string& name, const std::vector<data::CaseView>& own) {
   if (const auto view = fluoro::find_view(name)) return *view;
-  throw data::LoadError("there is no view \"" + name + "\"; `ostium views` lists them");
+  std::string known;
+  for (const data::CaseView& view : own) {
+    if (view.name == name) return {name, view.lao_deg, view.cran_deg, ""};
+    known += (known.empty() ? "; the case has " : ", ") + view.name;
+  }
+  throw data::LoadError("there is no view \"" + name + "\"; `ostium views` lists them" + known);
 }
 
 Fill fill_named(const std::string& name) {

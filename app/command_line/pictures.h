@@ -32,8 +32,8 @@ void add_fill_option(Options& options, std::string& fill);
 /// What draws path lengths: scanline, osmesa or egl.
 void add_renderer_option(Options& options, std::string& renderer);
 
-/// Throws LoadError if there is no such view.
-fluoro::StandardView named_view(const std::string& name);
+/// A standard view, or one of the case's own. Throws LoadError if there is no such view.
+fluoro::StandardView named_view(const std::string& name, const std::vector<data::CaseView>& own = {});
 Fill fill_named(const std::string& name);
 /// Says on which device OSMesa or EGL draws; where it is missing, says so and takes scanline.
 fluoro::Renderer renderer_named(const std::string& name);

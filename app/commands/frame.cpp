@@ -58,7 +58,7 @@ struct Arguments {
 };
 
 void declare_geometry(Options& options, Arguments& a) {
-  options.add("--view", a.view.view, "Standard view, see `ostium views`").show_default();
+  options.add("--view", a.view.view, "Standard view (`ostium views`), or one of the case's").show_default();
   add_angle_options(options, a.view);
   options.add("--sid", a.sid_mm, "Source to detector, mm").show_default();
   options.add("--field", a.field_mm, "Side of the detector's field, mm: 200, 160, 130")
@@ -90,8 +90,8 @@ void declare(Options& options, Arguments& a) {
   options.add("-o,--out", a.out, "FILE.png, FILE.dcm or FILE.mp4").show_default().writes();
 }
 
-fluoro::View view_of(const Arguments& a) {
-  const fluoro::StandardView named = named_view(a.view.view);
+fluoro::View view_of(const Arguments& a, const std::vector<data::CaseView>& own) {
+  const fluoro::StandardView named = named_view(a.view.view, own);
   fluoro::View view;
   view.arm.lao_rad = degree * (std::isnan(a.view.lao_deg) ? named.lao_deg : a.view.lao_deg);
   view.arm.cran_rad = degree * (std::isnan(a.view.cran_deg) ? named.cran_deg : a.view.cran_deg);
@@ -117,9 +117,9 @@ Scenes phantom_scenes(const Arguments& a) {
 }
 
 /// A case's patient, with the heart beating from frame to frame. Sets `middle` to the C-arm's isocentre.
-Scenes patient_scenes(const Arguments& a, Eigen::Vector3d& middle) {
+Scenes patient_scenes(const Arguments& a, const data::Case& c, Eigen::Vector3d& middle) {
   show_progress("building " + a.of);
-  const CaseScene made = scene_of_case(case_with(a.of, a.set), fill_named(a.fill), middle);
+  const CaseScene made = scene_of_case(c, fill_named(a.fill), middle);
   const double step_s = 1 / a.frames_per_s;
   return [made, step_s, phase = a.phase.value_or(0.75), at = 0](int frame) mutable {
     for (; at < frame; ++at) phase = made.later(phase, step_s);
@@ -207,8 +207,6 @@ FilmedFrames film(const Arguments& a, const Scenes& scenes, const fluoro::Fluoro
 
 int run(const Arguments& a) {
   require_ending(a.out, {".png", ".dcm", ".mp4"});
-  fluoro::View view = view_of(a);
-  require_reachable(view.arm);
   fluoro::require_rate(a.frames_per_s);
   if (a.dicom() && std::uint64_t(a.frames) * std::uint64_t(a.pixels * a.pixels) > data::dicom_most_bytes)
     throw data::LoadError(
@@ -221,7 +219,11 @@ int run(const Arguments& a) {
   if (a.of != "phantom" && (a.stenosis_percent || !a.guide.empty()))
     throw data::LoadError(std::string(a.stenosis_percent ? "--stenosis" : "--guide") +
                           " is for the phantom; a case has lesions of its own, and no tools");
-  const Scenes scenes = a.of == "phantom" ? phantom_scenes(a) : patient_scenes(a, middle);
+  std::optional<data::Case> of;
+  if (a.of != "phantom") of = case_with(a.of, a.set);
+  fluoro::View view = view_of(a, of ? of->views : std::vector<data::CaseView>{});
+  require_reachable(view.arm);
+  const Scenes scenes = of ? patient_scenes(a, *of, middle) : phantom_scenes(a);
   view.arm.p_PI += middle;
   fluoro::Scene scene = scenes(0);
   check(scene);

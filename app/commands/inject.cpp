@@ -106,7 +106,6 @@ nlohmann::ordered_json balance(const data::Case& c, const vascular::ContrastStat
 int run(const Arguments& a) {
   const bool video = vascular::ending_of(a.out) == ".mp4";
   require_ending(a.out, {".png", ".mp4"});
-  if (!a.view.empty()) named_view(a.view);
   fluoro::require_rate(a.frames_per_s);
   const int frames = static_cast<int>(std::lround(a.seconds * a.frames_per_s));
   if (!video && frames < moments)
@@ -115,6 +114,7 @@ int run(const Arguments& a) {
                     "least, or a film (.mp4)",
                     a.seconds, a.frames_per_s, frames, a.out, moments, moments / a.frames_per_s));
   data::Case c = case_with(a.of, a.set);
+  const fluoro::StandardView named = named_view(!a.view.empty() ? a.view : a.left() ? "rao-cranial" : "lao", c.views);
   if (a.healthy) c.lesions.clear();
   show_progress("building " + c.name);
   const vascular::Patient patient = patient_of(c);
@@ -123,10 +123,7 @@ int run(const Arguments& a) {
   show_progress("the heart beats until blood flows as it does at rest");
   vascular::PhysiologyState state = at_rest(model, c.rate_1_min);
   const vascular::PhysiologyState rest = state;
-  const fluoro::View view = app::view_of(!a.view.empty() ? a.view
-                                         : a.left()      ? "rao-cranial"
-                                                         : "lao",
-                                         patient, a.left(), a.pixels);
+  const fluoro::View view = app::view_of(named, patient, a.left(), a.pixels);
   require_reachable(view.arm);
   Angiogram angiogram(model, scene, view, a.frames_per_s, a.seed, renderer_named(a.renderer));
   angiogram.wait_for(a.phase, c.rate_1_min, state);

@@ -9,6 +9,7 @@ Command instruments_command();
 Command cases_command();
 Command check_command();
 Command import_command();
+Command workbench_command();
 Command frame_command();
 Command inject_command();
 Command treat_command();
@@ -33,12 +34,13 @@ Command device_command();
 Command program() {
   Command ostium = demonstration();
   // In the order of --help.
-  ostium.subcommands = {
-      verify_command(),     instruments_command(), cases_command(),   check_command(),        import_command(),
-      frame_command(),      inject_command(),      treat_command(),   views_command(),        picture_command(),
-      centreline_command(), predict_command(),     explain_command(), characterise_command(), run_command(),
-      serve_command(),      learn_command(),       play_command(),    report_command(),       study_command(),
-      scripts_command(),    sweep_command(),       dataset_command(), replay_command(),       device_command()};
+  ostium.subcommands = {verify_command(),  instruments_command(), cases_command(),        check_command(),
+                        import_command(),  workbench_command(),   frame_command(),        inject_command(),
+                        treat_command(),   views_command(),       picture_command(),      centreline_command(),
+                        predict_command(), explain_command(),     characterise_command(), run_command(),
+                        serve_command(),   learn_command(),       play_command(),         report_command(),
+                        study_command(),   scripts_command(),     sweep_command(),        dataset_command(),
+                        replay_command(),  device_command()};
   return ostium;
 }
 

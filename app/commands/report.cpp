@@ -6,9 +6,11 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "app/command_line/arguments.h"
 #include "app/command_line/command.h"
 #include "app/command_line/pictures.h"
 #include "app/command_line/progress.h"
+#include "app/commands/side_by_side.h"
 #include "app/reader/read_apart.h"
 #include "app/session/run/replay.h"
 #include "app/session/scene/film.h"
@@ -135,6 +137,7 @@ struct Arguments {
   std::vector<std::string> files;        ///< recordings
   std::string page = "report.html";      ///< empty: none
   std::string csv, events;               ///< empty: none
+  std::string film;                      ///< of two runs; empty: none
   std::string questionnaire;             ///< empty: none
   std::string scoring = "pci-elective";  ///< a list of data/scoring, or a file
   std::vector<std::string> codes;        ///< one per recording; default: run 1, run 2, ...
@@ -146,6 +149,7 @@ void declare(Options& options, Arguments& a) {
   options.add("file", a.files, "What `ostium run --out` recorded; several: side by side").type("RUN.h5");
   options.add("-o,--output", a.page, "The page, which needs nothing else").type("FILE.html").show_default().writes();
   options.add("--csv", a.csv, "Metrics and ticks, a row a run").type("FILE.csv").writes();
+  options.add("--film", a.film, "Two runs side by side, stage by stage: who is faster waits").type("FILE.mp4").writes();
   options.add("--events", a.events, "Events of the first run").type("FILE.csv").writes();
   options.add("--code", a.codes, "Of participants or attempts, one a recording; no names").type("CODE");
   options.add("--scoring", a.scoring, "Steps and errors: a list of data/scoring, or a file")
@@ -171,6 +175,9 @@ int run(const Arguments& a) {
     data::write_file(a.questionnaire, data::questionnaire_page());
     return 0;
   }
+  if (!a.film.empty()) require_ending(a.film, {".mp4"});
+  if (!a.film.empty() && a.files.size() != 2)
+    throw data::LoadError(fmt::format("--film shows two runs side by side; here are {}", a.files.size()));
   const data::ScoreList list = data::find_score_list(a.scoring);
   std::vector<data::ReportRun> runs;
   for (std::size_t i = 0; i < a.files.size(); ++i) {
@@ -188,6 +195,10 @@ int run(const Arguments& a) {
   if (!a.csv.empty()) files.push_back({a.csv, report_csv(runs, list)});
   data::write_files(files);
   fmt::print("{}\n", a.page);
+  if (a.film.empty()) return 0;
+  std::array<Replay, 2> replays = {Replay(a.files[0]), Replay(a.files[1])};
+  if (!film_side_by_side(replays, runs, a.film, renderer_named(a.renderer))) return 1;
+  fmt::print("{}\n", a.film);
   return 0;
 }
 
@@ -197,6 +208,7 @@ Command report_command() {
   return make_command("report", "Recorded runs as a page: pictures, plots, metrics, steps, errors",
                       {"ostium report out/run.h5 -o report.html",
                        "ostium report a.h5 b.h5 --code P07-1 P07-2 -o both.html --csv both.csv",
+                       "ostium report mine/run.h5 expert/run.h5 --code me expert --film both.mp4",
                        "ostium report --questionnaire forms.html"},
                       declare, run);
 }

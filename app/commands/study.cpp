@@ -29,7 +29,8 @@ void declare(Options& options, Arguments& a) {
   options.add("-o,--output", a.page, "The page, which needs nothing else").type("FILE.html").show_default().writes();
   options.add("--csv", a.csv, "The same as a table").type("FILE.csv").writes();
   options
-      .add("--template", a.to_begin_from, "Write a protocol, consent, instructions and the participants' table there")
+      .add("--template", a.to_begin_from,
+           "Write a protocol, consent, instructions, the trials and the participants' table there")
       .type("DIR");
   add_json_flag(options, a.json);
 }

@@ -6,6 +6,7 @@
 #include "app/angiography/settle.h"
 #include "app/angiography/textbook_treatment.h"
 #include "app/gates/gate.h"
+#include "core/base/quantile.h"
 #include "core/base/units.h"
 #include "vascular/geometry/mesh/bounding_volume_hierarchy.h"
 #include "vascular/treatment/stent_ties.h"
@@ -80,14 +81,6 @@ data::GateResult rides(const vascular::Patient& patient, const vascular::Physiol
   return {"treatment-stent-rides", 1e3 * worst, 0, 0.05, "mm"};
 }
 
-/// `share` of the values lie below.
-double quantile(std::vector<double> values, double share) {
-  std::sort(values.begin(), values.end());
-  const double at = share * static_cast<double>(values.size() - 1);
-  const std::size_t low = static_cast<std::size_t>(at), high = std::min(low + 1, values.size() - 1);
-  return values[low] + (at - std::floor(at)) * (values[high] - values[low]);
-}
-
 /// How stents come out in forty persons to whom no constant was fitted: what the delivery balloon's chart promises and
 /// what is missing (27.2 +- 7.2 %, Aziz et al., Heart 2007;93:1562), and the expansion after the last balloon (median
 /// 72.8 %, quartiles 63 and 81, ILUMIEN II).
@@ -116,10 +109,10 @@ std::vector<data::GateResult> persons() {
         expansion.push_back(result().expansion_percent);
       }
     }
-  return {{"treatment-persons-below-chart", quantile(below, 0.5), 27.5, 7.5, "%"},
-          {"treatment-persons-expansion", quantile(expansion, 0.5), 72.5, 7.5, "%"},
-          {"treatment-persons-expansion-quartiles-apart", quantile(expansion, 0.75) - quantile(expansion, 0.25), 18, 6,
-           "%"}};
+  return {{"treatment-persons-below-chart", core::quantile(below, 0.5), 27.5, 7.5, "%"},
+          {"treatment-persons-expansion", core::quantile(expansion, 0.5), 72.5, 7.5, "%"},
+          {"treatment-persons-expansion-quartiles-apart",
+           core::quantile(expansion, 0.75) - core::quantile(expansion, 0.25), 18, 6, "%"}};
 }
 
 }  // namespace

@@ -39,7 +39,8 @@ std::string pictures(const std::vector<ReportRun>& runs) {
 }  // namespace
 
 std::string report_page(const std::vector<ReportRun>& runs, const ScoreList& list) {
-  std::string body = header(runs) + pictures(runs) + time_plots(runs) + metrics_table(runs) + score_table(runs, list);
+  std::string body = header(runs) + pictures(runs) + time_plots(runs) + stages_table(runs) + metrics_table(runs) +
+                     score_table(runs, list);
   for (const ReportRun& run : runs) body += handling_table(run);
   for (const ReportRun& run : runs) body += events_table(run);
   return html_page(runs.size() == 1 ? "Run of " + runs[0].case_name : fmt::format("{} runs", runs.size()), body);

@@ -7,6 +7,8 @@ namespace ostium::data {
 /// What happened over time: one plot per signal, and the last inflation as the monitor showed it.
 std::string time_plots(const std::vector<ReportRun>& runs);
 
+/// When each stage that all runs have began, and how long it took; empty for one run.
+std::string stages_table(const std::vector<ReportRun>& runs);
 std::string metrics_table(const std::vector<ReportRun>& runs);
 std::string score_table(const std::vector<ReportRun>& runs, const ScoreList& list);
 std::string handling_table(const ReportRun& run);  ///< handling errors: what, when, and their definitions

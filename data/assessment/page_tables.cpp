@@ -5,6 +5,7 @@
 
 #include "data/assessment/html.h"
 #include "data/assessment/page_parts.h"
+#include "data/assessment/stages.h"
 #include "data/formats/markup.h"
 
 namespace ostium::data {
@@ -33,6 +34,26 @@ std::string score_cell(const ScoreItem& item, const Score& score) {
 std::string of_run(const ReportRun& run) { return run.code.empty() ? "" : " of " + escaped(run.code); }
 
 }  // namespace
+
+std::string stages_table(const std::vector<ReportRun>& runs) {
+  if (runs.size() < 2) return "";
+  const std::vector<Stage> stages = common_stages(runs);
+  std::string out =
+      "<h2>Stages</h2>\n<p class=\"note\">What happened in all runs, in this order.</p>\n<table><tr><th>stage</th>";
+  for (const ReportRun& run : runs)
+    out += fmt::format("<th>{0}: begins at</th><th>{0}: takes, s</th>", escaped(run.code));
+  out += "</tr>\n";
+  for (std::size_t k = 0; k < stages.size(); ++k) {
+    out += "<tr><td>" + escaped(stages[k].name) + "</td>";
+    for (std::size_t r = 0; r < runs.size(); ++r) {
+      const double begin_s = stages[k].begin_s[r],
+                   end_s = k + 1 < stages.size() ? stages[k + 1].begin_s[r] : runs[r].simulated_s;
+      out += fmt::format("<td class=\"n\">{}</td><td class=\"n\">{:.1f}</td>", time_text(begin_s), end_s - begin_s);
+    }
+    out += "</tr>\n";
+  }
+  return out + "</table>\n";
+}
 
 std::string metrics_table(const std::vector<ReportRun>& runs) {
   std::string out = "<h2>Metrics</h2>\n<table><tr><th>metric</th>";

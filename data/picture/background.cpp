@@ -7,6 +7,8 @@
 #include <numbers>
 #include <unsupported/Eigen/FFT>
 
+#include "core/base/quantile.h"
+
 namespace ostium::data {
 
 using Eigen::Index;
@@ -80,9 +82,9 @@ Background measure_background(const Image& image, const Mask& vessels, const Mas
   const Image b = without_vessels(image, vessels);
   Background out;
   const std::vector<double> grey = values_in(image, look), steep = values_in(gradient(b, 2), look);
-  const double spread = percentile(grey, 95) - percentile(grey, 5), middle = median(steep);
+  const double spread = core::quantile(grey, 0.95) - core::quantile(grey, 0.05), middle = core::median(steep);
   out.grad_median_rel = 100 * middle / std::max(spread, 1e-6);
-  out.grad_p99_over_median = percentile(steep, 99) / std::max(middle, 1e-6);
+  out.grad_p99_over_median = core::quantile(steep, 0.99) / std::max(middle, 1e-6);
   const auto detail = [&](double fine, double coarse) {
     return robust_deviation(values_in(gaussian(b, fine) - gaussian(b, coarse), look));
   };
@@ -132,8 +134,8 @@ Grain measure_grain(const Image& image, const Mask& look) {
     for (const Block& b : blocks) values.push_back(b.*member);
     return values;
   };
-  const double flat = percentile(of(&Block::deviation), 40), dark = percentile(of(&Block::grey), 33),
-               light = percentile(of(&Block::grey), 67);
+  const double flat = core::quantile(of(&Block::deviation), 0.40), dark = core::quantile(of(&Block::grey), 0.33),
+               light = core::quantile(of(&Block::grey), 0.67);
   std::vector<double> relative, next, in_dark, in_light;
   for (const Block& b : blocks) {
     if (b.deviation <= flat) {
@@ -143,8 +145,8 @@ Grain measure_grain(const Image& image, const Mask& look) {
     if (b.grey <= dark) in_dark.push_back(b.finest);
     if (b.grey >= light) in_light.push_back(b.finest);
   }
-  out.noise_rel = median(relative), out.grain = median(next);
-  out.noise_dark_over_light = median(in_dark) / std::max(median(in_light), 1e-9);
+  out.noise_rel = core::median(relative), out.grain = core::median(next);
+  out.noise_dark_over_light = core::median(in_dark) / std::max(core::median(in_light), 1e-9);
   return out;
 }
 
@@ -158,7 +160,7 @@ int border_sides(const Image& image) {
       line.push_back(side < 2 ? image.row(at).segment(from, count).mean() : image.col(at).segment(from, count).mean());
     }
     const double outermost = (line[0] + line[1] + line[2]) / 3;
-    sides += outermost < 0.72 * median({line.begin() + 60, line.end()});
+    sides += outermost < 0.72 * core::median({line.begin() + 60, line.end()});
   }
   return sides;
 }

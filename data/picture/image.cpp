@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/quantile.h"
+
 namespace ostium::data {
 
 using Eigen::Index;
@@ -100,18 +102,6 @@ double sample(const Image& image, double y, double x) {
          fy * ((1 - fx) * image(y0 + 1, x0) + fx * image(y0 + 1, x0 + 1));
 }
 
-double percentile(std::vector<double> values, double percent) {
-  const double at = 0.01 * percent * static_cast<double>(values.size() - 1);
-  const auto low = static_cast<std::size_t>(at);
-  const auto nth = values.begin() + static_cast<std::ptrdiff_t>(low);
-  std::nth_element(values.begin(), nth, values.end());
-  const double a = *nth;
-  if (low + 1 == values.size()) return a;
-  return a + (at - static_cast<double>(low)) * (*std::min_element(nth + 1, values.end()) - a);
-}
-
-double median(std::vector<double> values) { return percentile(std::move(values), 50); }
-
 double mean(const std::vector<double>& values) {
   double sum = 0;
   for (double v : values) sum += v;
@@ -126,10 +116,10 @@ double deviation(const std::vector<double>& values) {
 }
 
 double robust_deviation(const std::vector<double>& values) {
-  const double middle = median(values);
+  const double middle = core::median(values);
   std::vector<double> from;
   for (double v : values) from.push_back(std::fabs(v - middle));
-  return 1.4826 * median(std::move(from));
+  return 1.4826 * core::median(std::move(from));
 }
 
 std::vector<double> values_in(const Image& image, const Mask& mask) {

@@ -25,9 +25,6 @@ Image gradient(const Image& image, double sigma_pixels);
 /// Linear between pixels, constant beyond the edges.
 double sample(const Image& image, double y, double x);
 
-/// Linear between order statistics; `percent` in [0, 100]; `values` is not empty.
-double percentile(std::vector<double> values, double percent);
-double median(std::vector<double> values);
 double mean(const std::vector<double>& values);
 double deviation(const std::vector<double>& values);  ///< with n, not n - 1
 /// Robust standard deviation: 1.4826 of the median distance from the median.

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "core/base/quantile.h"
 #include "data/picture/background.h"
 #include "data/picture/vessels.h"
 
@@ -28,7 +29,7 @@ std::optional<double> scatter(const std::vector<Profile>& profiles, double Profi
     out.push_back(std::sqrt(left / n) / middle);
   }
   if (out.empty()) return {};
-  return median(out);
+  return core::median(out);
 }
 
 void add_vessels(const VesselTree& tree, Likeness& out) {
@@ -43,10 +44,10 @@ void add_vessels(const VesselTree& tree, Likeness& out) {
     of_3_mm.push_back(contrast.back());
     if (p.blur_px) blur.push_back(*p.blur_px);
   }
-  out["lncontrast_p50"] = median(contrast);
+  out["lncontrast_p50"] = core::median(contrast);
   if (of_3_mm.size() >= 4) {
-    out["v3_lncontrast"] = median(of_3_mm);
-    if (blur.size() >= 3) out["v3_blur_px"] = median(blur);
+    out["v3_lncontrast"] = core::median(of_3_mm);
+    if (blur.size() >= 3) out["v3_blur_px"] = core::median(blur);
   }
   if (const auto s = scatter(tree.profiles, &Profile::width_px)) out["width_scatter"] = *s;
   if (const auto s = scatter(tree.profiles, &Profile::depth)) out["depth_scatter"] = *s;
@@ -100,7 +101,7 @@ Likeness measure_likeness(const Image& picture) {
   inner.block(margin, margin, n - 2 * margin, n - 2 * margin).setConstant(true);
   Likeness out;
   const std::vector<double> grey = values_in(image, inner);
-  out["p25"] = percentile(grey, 25), out["p50"] = median(grey);
+  out["p25"] = core::quantile(grey, 0.25), out["p50"] = core::median(grey);
   const VesselTree tree = find_vessels(image, inner);
   add_vessels(tree, out);
   const Background b = measure_background(image, tree.mask, inner);
@@ -119,7 +120,7 @@ Likeness median_of(const std::vector<Likeness>& pictures) {
     std::vector<double> values;
     for (const Likeness& one : pictures)
       if (const auto found = one.find(n.name); found != one.end()) values.push_back(found->second);
-    if (!values.empty()) out[n.name] = median(values);
+    if (!values.empty()) out[n.name] = core::median(values);
   }
   return out;
 }

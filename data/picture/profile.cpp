@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 
+#include "core/base/quantile.h"
+
 namespace ostium::data {
 
 namespace {
@@ -29,7 +31,7 @@ std::optional<Dip> dip_of(const Across& a) {
     if (const double from = u[i] - u[out.middle]; std::fabs(from) > 0.72 * u.back())
       at[from > 0].push_back(u[i]), grey[from > 0].push_back(v[i]);
   if (at[0].size() < 3 || at[1].size() < 3) return {};
-  out.left = median(grey[0]), out.right = median(grey[1]);
+  out.left = core::median(grey[0]), out.right = core::median(grey[1]);
   const double from = mean(at[0]), slope = (out.right - out.left) / (mean(at[1]) - from);
   for (std::size_t i = 0; i < u.size(); ++i) out.depth.push_back(out.left + slope * (u[i] - from) - v[i]);
   out.background = out.left + slope * (u[out.middle] - from);

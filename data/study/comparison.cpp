@@ -4,6 +4,8 @@
 #include <cmath>
 #include <map>
 
+#include "core/base/quantile.h"
+
 namespace ostium::data {
 
 namespace {
@@ -38,9 +40,10 @@ GroupNumbers numbers_of(const Study& study, const Trials& trials, std::size_t me
     std::vector<double> own;
     for (const auto& [trial, run] : trials.of[p])
       if (std::isfinite(run->values[metric])) own.push_back(run->values[metric]);
-    if (!own.empty()) out.values.push_back(quantile(own, 0.5));
+    if (!own.empty()) out.values.push_back(core::quantile(own, 0.5));
   }
-  out.median = quantile(out.values, 0.5), out.low = quantile(out.values, 0.25), out.high = quantile(out.values, 0.75);
+  out.median = core::quantile(out.values, 0.5), out.low = core::quantile(out.values, 0.25),
+  out.high = core::quantile(out.values, 0.75);
   return out;
 }
 
@@ -67,7 +70,7 @@ std::vector<double> medians_by_trial(const Study& study, const Trials& trials, s
                                                      run != trials.of[p].end() &&
                                                      std::isfinite(run->second->values[metric]))
         values.push_back(run->second->values[metric]);
-    out.push_back(quantile(values, 0.5));
+    out.push_back(core::quantile(values, 0.5));
   }
   return out;
 }
@@ -143,7 +146,7 @@ std::vector<AnsweredStatement> statements_of(const Study& study) {
     for (const std::vector<int>& counts : statement.counts)
       for (int k = 0; k < 5; ++k)
         all.insert(all.end(), static_cast<std::size_t>(counts[static_cast<std::size_t>(k)]), k + 1);
-    statement.median = quantile(all, 0.5);
+    statement.median = core::quantile(all, 0.5);
   }
   return out;
 }

@@ -20,8 +20,4 @@ RankTest rank_test(const std::vector<double>& a, const std::vector<double>& b);
 /// Holm's correction for several tests (1979), Scand. J. Stat. 6:65; in the order given.
 std::vector<double> holm(const std::vector<double>& p);
 
-/// Of values in order or not; `share` in [0, 1], interpolated between neighbours (type 7 of Hyndman and Fan 1996). NaN
-/// of none.
-double quantile(std::vector<double> values, double share);
-
 }  // namespace ostium::data

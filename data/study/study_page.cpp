@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "core/base/quantile.h"
 #include "data/assessment/html.h"
 #include "data/assessment/metrics.h"
 #include "data/formats/decimal.h"
@@ -45,7 +46,7 @@ std::string about_group(const Study& study, const std::string& group, std::size_
   for (const auto& [word, count] : words) answered += static_cast<std::size_t>(count);
   if (answered == 0) return "";
   if (numbers.size() == answered)
-    return fmt::format("{:g} [{:g} to {:g}]", quantile(numbers, 0.5), std::ranges::min(numbers),
+    return fmt::format("{:g} [{:g} to {:g}]", core::quantile(numbers, 0.5), std::ranges::min(numbers),
                        std::ranges::max(numbers));
   std::string out;
   for (const auto& [word, count] : words) out += fmt::format("{}{}: {}", out.empty() ? "" : ", ", escaped(word), count);

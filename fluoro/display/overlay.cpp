@@ -89,6 +89,14 @@ void radiation_sign(cairo_t* pen, double x, double y, double size) {
 
 }  // namespace
 
+void draw_captions(const std::vector<std::string>& lines, Picture& picture) {
+  Sheet sheet(picture.width, picture.height);
+  const double size = std::max(10.0, picture.width / 42.0), line = 1.35 * size, margin = 0.8 * size;
+  double down = margin + size;
+  for (const std::string& one : lines) sheet.write(margin, down, size, one), down += line;
+  sheet.lay_over(picture, 0);
+}
+
 void draw_overlay(const OverlayText& t, Picture& picture) {
   using units::degree;
   Sheet sheet(picture.width, picture.height);

@@ -1,6 +1,7 @@
 #pragma once
 /// Text and traces on the picture, as on the monitor of a catheter laboratory.
 #include <string>
+#include <vector>
 
 #include "fluoro/detector/exposure.h"
 #include "fluoro/display/display.h"
@@ -20,6 +21,9 @@ struct OverlayText {
 /// Draws angles, SID, field, rate, tube voltage, times, dose-area product (Gy cm2) and kerma (mGy) along the edges; a
 /// radiation sign while the beam is on.
 void draw_overlay(const OverlayText& text, Picture& picture);
+
+/// Lines of text along the top, as large as those of the overlay.
+void draw_captions(const std::vector<std::string>& lines, Picture& picture);
 
 /// A signal over time, oldest sample first.
 struct Strip {

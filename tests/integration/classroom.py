@@ -160,7 +160,48 @@ def a_branch_that_cannot_be_written(folder):
     assert note["note"] == "kept" and note["recording"] == "run.h5", note
 
 
-for test in (a_lesson_that_cannot_be_opened, a_verdict_that_cannot_be_kept, a_recording_that_fails,
+def person_and_instruments_are_chosen(folder):
+    with Program(folder, "play") as page:
+        board = page.wait("the list", lambda m: m["type"] == "course" and m["chooses_person"])
+        assert board["person"] is None
+        page.say({"do": "person", "values": [1.5]})
+        page.wait("half a person", lambda m: m["type"] == "refused" and "whole number" in m["why"])
+        page.say({"do": "person", "values": [4]})
+        board = page.wait("person 4", of("course", person=4))
+        place = next(i for i, one in enumerate(board["lessons"]) if one["title"].startswith("Focal stenosis of the middle right"))
+        assert "(person 4)" in board["lessons"][place]["title"], board["lessons"][place]["title"]
+        guide = next(tool for tool in board["lessons"][place]["tools"] if tool["name"] == "guide")
+        assert "guide-al1-6f" in guide["others"] and "wire-014-workhorse" not in guide["others"], guide
+        page.say({"do": "lesson", "values": [place, 1], "set": ["guide=wire-014-workhorse"]})
+        page.wait("a wire is no guide", lambda m: m["type"] == "refused" and "on the lesson's list" in m["why"])
+        page.say({"do": "lesson", "values": [place, 1], "set": ["guide=guide-al1-6f"]})
+        welcome = page.wait("the lesson", of("welcome"), 120)
+        assert any(tool["name"] == "guide" and "Amplatz" in tool["title"] for tool in welcome["tools"]), welcome["tools"]
+    (attempts,) = json.loads((folder / "ostium-play/procedures/progress.json").read_text(encoding="utf-8")).values()
+    assert attempts[0]["set"] == ["guide=guide-al1-6f"], attempts
+
+
+def an_exam_tells_nothing_and_ends_by_itself(folder):
+    trials = json.loads((REPO / "data/study/template/trials.json").read_text(encoding="utf-8"))
+    trials["lessons"] = trials["lessons"][1:3]
+    trials["lessons"][0]["limit_min"] = 0.03
+    (folder / "trials.json").write_text(json.dumps(trials), encoding="utf-8")
+    with Program(folder, "learn", folder / "trials.json", "--lesson", "trial-1") as page:
+        welcome = page.wait("the trial", of("welcome"), 120)
+        assert welcome["lesson"]["exam"] and not welcome["goes_back"]
+        for order, why in (({"do": "hint"}, "no hint"), ({"do": "rewind", "values": [0]}, "cannot go back"),
+                           ({"do": "lesson", "values": [0, 2]}, "it is an exam")):
+            page.say(order)
+            page.wait(why, lambda m, w=why: m["type"] == "refused" and w in m["why"])
+        told = set()
+        page.say({"do": "pause"})
+        page.wait("the end", lambda m: told.add(m["type"]) or m["type"] == "ended")
+        assert "scores" not in told, told
+        page.wait("the next one opens", lambda m: m["type"] == "course" and m["lessons"][0]["done"] and not m["lessons"][1]["locked"])
+
+
+for test in (person_and_instruments_are_chosen, an_exam_tells_nothing_and_ends_by_itself,
+             a_lesson_that_cannot_be_opened, a_verdict_that_cannot_be_kept, a_recording_that_fails,
              a_branch_that_cannot_be_written):
     with tempfile.TemporaryDirectory() as made:
         test(pathlib.Path(made))

@@ -7,7 +7,6 @@
 #include <map>
 
 #include "app/command_line/filled_folder.h"
-#include "app/commands/learn/schooling.h"
 #include "data/formats/load_error.h"
 
 namespace ostium::app {
@@ -88,7 +87,7 @@ void declare_attendance(Options& options, const std::string& lesson, Attendance&
   options.exclude("--list", {lesson.c_str(), "--show", "--port"});
 }
 
-int attend_course(const data::Course& course, const Attendance& a) {
+int attend_course(const data::Course& course, const Attendance& a, const Schooling::ForPerson& for_person) {
   std::vector<CheckedLesson> lessons;
   std::map<std::string, data::ScoreList> lists;  // each read once
   for (const data::Lesson& lesson : course.lessons) {
@@ -113,7 +112,7 @@ int attend_course(const data::Course& course, const Attendance& a) {
   else
     for (std::size_t i = 0; i < course.lessons.size() && first.kind == Ask::Kind::none; ++i)
       if (progress.is_open(course.lessons[i].name)) first = {Ask::Kind::lesson, i, Ask::How::go_on};
-  return Schooling(course, lessons, progress).attend(static_cast<std::uint16_t>(a.port), first, opens);
+  return Schooling(course, lessons, progress, for_person).attend(static_cast<std::uint16_t>(a.port), first, opens);
 }
 
 }  // namespace ostium::app

@@ -1,7 +1,7 @@
 #pragma once
 /// A course as a command opens it: checked, listed or attended.
 #include "app/command_line/options.h"
-#include "data/catalogue/course/course.h"
+#include "app/commands/learn/schooling.h"
 
 namespace ostium::app {
 
@@ -15,6 +15,6 @@ struct Attendance {
 void declare_attendance(Options& options, const std::string& lesson, Attendance& a);
 
 /// Until the learner closes it. Exit code. Throws LoadError for a course that cannot be judged as it says.
-int attend_course(const data::Course& course, const Attendance& a);
+int attend_course(const data::Course& course, const Attendance& a, const Schooling::ForPerson& for_person = {});
 
 }  // namespace ostium::app

@@ -24,7 +24,8 @@ int run(const Arguments& a) {
   Attendance attendance = a.attendance;
   if (a.person && !attendance.lesson.empty()) attendance.lesson += fmt::format("-person-{}", *a.person);
   const auto person = a.person ? std::optional(static_cast<std::uint64_t>(*a.person)) : std::nullopt;
-  return attend_course(data::procedures_course(person, a.set), attendance);
+  return attend_course(data::procedures_course(person, a.set), attendance,
+                       [&](std::optional<std::uint64_t> other) { return data::procedures_course(other, a.set); });
 }
 
 }  // namespace

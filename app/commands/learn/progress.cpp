@@ -24,11 +24,13 @@ bool is_attempt(const Json& one) {
   const auto counts = [&](const char* key) {
     return !one.contains(key) || (one[key].is_number_unsigned() && one[key].get<std::uint64_t>() < 1'000'000);
   };
+  const auto texts = [&](const char* key) {
+    return !one.contains(key) ||
+           (one[key].is_array() && std::ranges::all_of(one[key], [](const Json& text) { return text.is_string(); }));
+  };
   return one.is_object() && one.contains("done") && one["done"].is_boolean() && counts("attempt") &&
          is("open", &Json::is_boolean) && is("ended", &Json::is_boolean) && is("seconds", &Json::is_number) &&
-         counts("hints_asked") &&
-         (!one.contains("missed") || (one["missed"].is_array() &&
-                                      std::ranges::all_of(one["missed"], [](const Json& m) { return m.is_string(); })));
+         counts("hints_asked") && texts("missed") && texts("set");
 }
 
 }  // namespace
@@ -75,7 +77,8 @@ std::optional<Progress::Unfinished> Progress::unfinished(const std::string& less
   if (all.empty() || all.back()["done"].get<bool>()) return {};
   const std::size_t number = all.back().value("attempt", std::size_t{0});
   const auto from = where_it_stopped(folder_of(lesson, number).string());
-  return from ? std::optional(Unfinished{number, *from}) : std::nullopt;
+  if (!from) return {};
+  return Unfinished{number, *from, all.back().value("set", std::vector<std::string>{})};
 }
 
 Json& Progress::attempt(const std::string& lesson, std::size_t number) {
@@ -88,8 +91,10 @@ Json& Progress::attempt(const std::string& lesson, std::size_t number) {
 
 void Progress::write() const { data::write_file(file_, all_.dump(2) + "\n"); }
 
-void Progress::begin(const std::string& lesson, std::size_t number) {
-  attempt(lesson, number)["open"] = true;
+void Progress::begin(const std::string& lesson, std::size_t number, const std::vector<std::string>& set) {
+  Json& one = attempt(lesson, number);
+  one["open"] = true;
+  if (!set.empty()) one["set"] = set;
   write();
 }
 

@@ -28,11 +28,12 @@ class Progress {
   struct Unfinished {
     std::size_t number = 0;
     Continued from;
+    std::vector<std::string> set;  ///< instruments that were chosen for it
   };
   std::optional<Unfinished> unfinished(const std::string& lesson) const;
 
   /// An attempt is open from `begin` to `leave`.
-  void begin(const std::string& lesson, std::size_t number);
+  void begin(const std::string& lesson, std::size_t number, const std::vector<std::string>& set);
   void leave(const std::string& lesson, std::size_t number);
   struct Verdict {
     bool done = false;

@@ -3,11 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 
 #include "app/command_line/interrupt.h"
-#include "app/commands/run/drivers.h"
+#include "app/command_line/links.h"
 #include "app/serve/messages/hints.h"
+#include "data/catalogue/catalogue.h"
 #include "data/formats/load_error.h"
+#include "data/formats/paths.h"
 #include "data/formats/write_file.h"
 
 namespace ostium::app {
@@ -24,7 +27,7 @@ std::vector<LessonWords::Instruction> words_of(const data::Lesson& lesson) {
     for (std::size_t k = i + 1; k < lesson.instructions.size() && end < 0; ++k)
       if (lesson.instructions[k].expert_step > one.expert_step) end = lesson.instructions[k].expert_step;
     std::vector<std::string> hints;
-    if (one.expert_step >= 0) hints = hints_of(script, one.expert_step, end);
+    if (one.expert_step >= 0 && !lesson.exam) hints = hints_of(script, one.expert_step, end);
     out.push_back({one.text, one.ticks(), std::move(hints)});
   }
   return out;
@@ -33,6 +36,15 @@ std::vector<LessonWords::Instruction> words_of(const data::Lesson& lesson) {
 /// An item of the list that must hold, as a condition.
 std::string needed_words(const data::ScoreItem& item) {
   return (item.kind == data::ScoreKind::step ? "" : "Must not happen: ") + item.what;
+}
+
+/// "tool=instrument" in place of what was set for that tool.
+void replace_tools(const std::vector<std::string>& chosen, std::vector<std::string>& set) {
+  for (const std::string& one : chosen) {
+    const std::string tool = one.substr(0, one.find('=') + 1);
+    std::erase_if(set, [&](const std::string& other) { return other.starts_with(tool); });
+    set.push_back(one);
+  }
 }
 
 /// What was expected and what happened.
@@ -55,6 +67,26 @@ void tell(const CheckedLesson& lesson, const Served& served) {
 
 }  // namespace
 
+/// Of each lesson's tools: what else of its kind there is.
+void Schooling::find_tools() {
+  person_ = course_.lessons.front().person;
+  std::map<data::InstrumentKind, std::vector<std::string>> shelf;
+  std::map<std::string, data::InstrumentKind> kinds;
+  for (const data::Instrument& one : data::load_catalogue())
+    shelf[one.kind].push_back(one.name), kinds[one.name] = one.kind;
+  for (const data::Lesson& lesson : course_.lessons) {
+    std::vector<CourseBoard::Lesson::Tool>& own = tools_.emplace_back();
+    for (const data::ScriptTool& tool : data::find_script(lesson.script).tools)
+      if (const auto kind = kinds.find(tool.instrument); kind != kinds.end())
+        own.push_back({tool.name, tool.sizes.empty() ? tool.instrument : "by size", shelf[kind->second]});
+  }
+}
+
+void Schooling::choose(std::optional<std::uint64_t> person) {
+  course_ = for_person_(person);
+  person_ = person;
+}
+
 ServeArguments Schooling::serving_of(std::size_t place) const {
   const data::Lesson& lesson = course_.lessons[place];
   ServeArguments serving;
@@ -69,6 +101,7 @@ ServeArguments Schooling::serving_of(std::size_t place) const {
                     {},
                     ""};
   serving.instructions = lesson.instructions;
+  serving.lesson.exam = lesson.exam, serving.session.seconds = lesson.limit_s;
   return serving;
 }
 
@@ -85,21 +118,25 @@ Progress::Verdict Schooling::verdict(std::size_t place, const Served& served) co
 
 CourseBoard Schooling::board(std::optional<std::size_t> at) const {
   CourseBoard board;
+  board.chooses_person = for_person_ != nullptr, board.person = person_;
   board.title = course_.title, board.note = course_.note, board.problem = problem_, board.at = at;
   bool before = true;
   board.next = course_.lessons.size();
   for (std::size_t i = 0; i < course_.lessons.size(); ++i) {
     const data::Lesson& lesson = course_.lessons[i];
     CourseBoard::Lesson own;
-    own.title = lesson.title, own.goal = lesson.goal;
+    own.title = lesson.title, own.goal = lesson.goal, own.exam = lesson.exam;
+    if (for_person_) own.tools = tools_[i];
     for (const std::size_t item : lessons_[i].needed)
       own.must_hold.push_back(needed_words(lessons_[i].list.items[item]));
     for (const auto& one : progress_.attempts(lesson.name))
-      own.attempts.push_back({one.value("attempt", std::size_t{0}), one["done"].get<bool>(), one.value("ended", false),
-                              one.value("seconds", 0.0), one.value("hints_asked", 0),
-                              one.value("missed", std::vector<std::string>{})});
+      if (one.value("ended", false) ||
+          data::is_there(progress_.folder_of(lesson.name, one.value("attempt", std::size_t{0}))))
+        own.attempts.push_back({one.value("attempt", std::size_t{0}), one["done"].get<bool>(),
+                                one.value("ended", false), one.value("seconds", 0.0), one.value("hints_asked", 0),
+                                one.value("missed", std::vector<std::string>{})});
     own.done = progress_.done(lesson.name);
-    own.locked = course_.in_order && !before && own.attempts.empty();
+    own.locked = course_.in_order && !before && progress_.attempts(lesson.name).empty();
     own.goes_on = progress_.unfinished(lesson.name).has_value();
     before = own.done;
     if (!own.done) board.next = std::min(board.next, i);
@@ -132,6 +169,8 @@ void Schooling::attempt(ServeArguments& serving, std::size_t place, const Ask& a
   serving.lesson.needed = lessons_[place].needed;
   if (place + 1 < course_.lessons.size()) serving.lesson.next = course_.lessons[place + 1].title;
   if (unfinished) serving.resumes = unfinished->from;
+  const std::vector<std::string>& set = unfinished ? unfinished->set : ask.set;
+  replace_tools(set, serving.session.set);
   Classroom& room = *serving.classroom;
   serving.ended = [&, place, number](const Served& served) {
     kept([&] { progress_.note(lesson.name, number, verdict(place, served)); });
@@ -139,7 +178,7 @@ void Schooling::attempt(ServeArguments& serving, std::size_t place, const Ask& a
     tell(lessons_[place], served);
     if (!problem_.empty()) throw data::WriteError(problem_);
   };
-  progress_.begin(lesson.name, number);
+  progress_.begin(lesson.name, number, set);
   try {
     fmt::print("{}, attempt {}{}\n", serving.lesson.title, number, unfinished ? " goes on" : "");
     std::fflush(stdout);
@@ -149,7 +188,7 @@ void Schooling::attempt(ServeArguments& serving, std::size_t place, const Ask& a
     if (!unfinished) throw;
     fmt::print(stderr, "{}\nostium: attempt {} cannot go on; a new one begins\n", error.what(), number);
     serving.resumes.reset();
-    return attempt(serving, place, {Ask::Kind::lesson, place, Ask::How::afresh});
+    return attempt(serving, place, {Ask::Kind::lesson, place, Ask::How::afresh, unfinished->set});
   } catch (...) {
     kept([&] { progress_.leave(lesson.name, number); });
     throw;
@@ -161,6 +200,7 @@ void Schooling::open(Classroom& room, const Ask& ask) {
   ServeArguments serving = serving_of(ask.lesson);
   serving.classroom = &room;
   if (ask.how != Ask::How::shown) return attempt(serving, ask.lesson, ask);
+  replace_tools(ask.set, serving.session.set);
   serving.hands = "script";
   serving.lesson.title += " (shown by the expert)";
   serve(serving);
@@ -171,7 +211,7 @@ int Schooling::attend(std::uint16_t port, const Ask& first, bool required) {
   room.show(board({}));
   stop_on_signals();
   fmt::print("{}\nOpen the first of these links in a browser; lessons are chosen there.\n", course_.title);
-  tell_links(room.trainer_link(), room.viewer_link(), false);
+  tell_links("trainer", room.trainer_link(), room.viewer_link(), false);
   Ask ask = first;
   while (!interrupted && ask.kind != Ask::Kind::close) {
     if (ask.kind == Ask::Kind::lesson) {
@@ -188,6 +228,7 @@ int Schooling::attend(std::uint16_t port, const Ask& first, bool required) {
       required = false;
       ask = room.take();
     } else {
+      if (ask.kind == Ask::Kind::person) choose(ask.person);
       room.show(board({}));
       ask = room.wait(interrupted);
     }

@@ -14,15 +14,23 @@ struct CheckedLesson {
 
 class Schooling {
  public:
-  /// All must outlive it.
-  Schooling(const data::Course& course, const std::vector<CheckedLesson>& lessons, Progress& progress)
-      : course_(course), lessons_(lessons), progress_(progress) {}
+  /// The course for another person, or as its cases have it, with the same lessons in the same order.
+  using ForPerson = std::function<data::Course(std::optional<std::uint64_t> person)>;
+
+  /// `lessons` and `progress` must outlive it. `for_person`: the learner may choose a person, and the instruments of a
+  /// lesson; empty: the course says both.
+  Schooling(data::Course course, const std::vector<CheckedLesson>& lessons, Progress& progress, ForPerson for_person)
+      : course_(std::move(course)), lessons_(lessons), progress_(progress), for_person_(std::move(for_person)) {
+    if (for_person_) find_tools();
+  }
 
   /// Until the learner closes the course, or the program is asked to end. `first`: what is opened at once.
   /// `required`: throws why it cannot be opened; else that is told on the page, as it is of later ones.
   int attend(std::uint16_t port, const Ask& first, bool required);
 
  private:
+  void find_tools();
+  void choose(std::optional<std::uint64_t> person);
   CourseBoard board(std::optional<std::size_t> at) const;
   void open(Classroom& room, const Ask& ask);
   void tell_problem(const std::string& what);
@@ -31,10 +39,13 @@ class Schooling {
   ServeArguments serving_of(std::size_t place) const;
   Progress::Verdict verdict(std::size_t place, const Served& served) const;
 
-  const data::Course& course_;
+  data::Course course_;
   const std::vector<CheckedLesson>& lessons_;
   Progress& progress_;
-  std::string problem_;  ///< of what was done last
+  ForPerson for_person_;
+  std::optional<std::uint64_t> person_;
+  std::vector<std::vector<CourseBoard::Lesson::Tool>> tools_;  ///< of each lesson that may be chosen
+  std::string problem_;                                        ///< of what was done last
 };
 
 }  // namespace ostium::app

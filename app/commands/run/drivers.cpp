@@ -1,14 +1,12 @@
 #include "app/commands/run/drivers.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <cstdio>
 #include <exception>
 #include <filesystem>
 #include <thread>
 
 #include "app/command_line/interrupt.h"
+#include "app/command_line/links.h"
 #include "app/command_line/pictures.h"
 #include "app/command_line/progress.h"
 #include "core/base/units.h"
@@ -52,15 +50,6 @@ bool has_pedals(const RunArguments& a, const BoxRun* device, const data::Script&
 
 }  // namespace
 
-void tell_links(const std::string& trainer, const std::string& viewers, bool open) {
-  fmt::print("trainer: {}\nviewers: {}\n", trainer, viewers);
-  std::fflush(stdout);
-  if (open)
-    fmt::print(stderr,
-               "ostium: others in this network can reach the station, and what it sends is not encrypted: whoever has "
-               "the trainer's link has the console\n");
-}
-
 Drivers::Drivers(const RunArguments& a, BoxRun* device, ScriptedRun& run) {
   Driver* driver = device ? &device->driver() : nullptr;
   const Hands hands = a.device == "keyboard" ? Hands::seats : device ? Hands::box : Hands::script;
@@ -73,7 +62,7 @@ Drivers::Drivers(const RunArguments& a, BoxRun* device, ScriptedRun& run) {
     settings.renderer = renderer_named(a.renderer);
     settings.folder = a.folder;
     station.emplace(run, *hand, data::find_score_list("pci-elective"), settings);
-    tell_links(station->trainer_link(), station->viewer_link(), false);
+    tell_links("trainer", station->trainer_link(), station->viewer_link(), false);
   }
   if (a.film && !a.folder.empty()) {
     FilmOptions look;

@@ -16,9 +16,6 @@ namespace ostium::app {
 /// `setup`'s script.
 std::unique_ptr<BoxRun> device_of(const RunArguments& arguments, RunSetup& setup);
 
-/// Says where the station's page is, and warns where others can reach it. `open`: whether it listens to them.
-void tell_links(const std::string& trainer, const std::string& viewers, bool open);
-
 /// Drivers are chained: the film sees the inputs of the live driver, which sees those of the box.
 struct Drivers {
   std::optional<LiveDriver> hand;

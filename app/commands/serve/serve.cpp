@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cstdlib>
 #include <filesystem>
 
 #include "app/command_line/arguments.h"
@@ -10,6 +9,8 @@
 #include "app/command_line/common_options.h"
 #include "app/command_line/filled_folder.h"
 #include "app/command_line/interrupt.h"
+#include "app/command_line/links.h"
+#include "app/command_line/passing_folder.h"
 #include "app/command_line/progress.h"
 #include "app/commands/run/drivers.h"
 #include "app/commands/serve/sitting.h"
@@ -47,27 +48,6 @@ void declare(Options& options, ServeArguments& a) {
   options.flag("--report,!--no-report", a.report, "DIR/report.html with pictures at the end (default)");
 }
 
-/// A folder of its own, which goes with it.
-class PassingFolder {
- public:
-  PassingFolder() {
-    std::error_code none;
-    std::string name = (fs::temp_directory_path(none) / "ostium-serve-XXXXXX").string();
-    if (none || !mkdtemp(name.data()))
-      throw data::LoadError("no folder for what passes can be made, in TMPDIR or /tmp; expected --out DIR");
-    path_ = name;
-  }
-  ~PassingFolder() {
-    std::error_code none;
-    fs::remove_all(path_, none);
-  }
-  PassingFolder(const PassingFolder&) = delete;
-  const std::string& path() const { return path_; }
-
- private:
-  std::string path_;
-};
-
 /// The angioplasty that is written for the case, if there is one.
 std::string script_for(const std::string& vessel) {
   const std::string own = "pci-" + vessel;
@@ -76,7 +56,7 @@ std::string script_for(const std::string& vessel) {
 
 StationSettings settings_of(const ServeArguments& a) {
   StationSettings settings;
-  settings.address = a.address, settings.port = static_cast<std::uint16_t>(a.port), settings.goes_back = true;
+  settings.address = a.address, settings.port = static_cast<std::uint16_t>(a.port), settings.goes_back = !a.lesson.exam;
   settings.lesson = a.lesson, settings.folder = a.folder;
   if (a.classroom) settings.server = &a.classroom->server(), settings.viewer_token = a.classroom->viewer_token();
   return settings;
@@ -124,7 +104,7 @@ Served serve(const ServeArguments& arguments) {
   const data::Script script = setup.script;
   if (by_hand) setup.script = free_hands(setup.script);
   std::optional<PassingFolder> passing;
-  if (a.folder.empty()) a.folder = passing.emplace().path();
+  if (a.folder.empty()) a.folder = passing.emplace("serve").path();
   const FilledFolder filled(a.folder);
   if (!passing && !a.resumes) require_no_sitting(a.folder);
   if (passing) leave_no_empty({a.folder});
@@ -139,7 +119,7 @@ Served serve(const ServeArguments& arguments) {
   std::optional<EndsAtOnce> nothing_yet(std::in_place);
   Station station(session, hand, list, settings_of(a));
   show_progress("");
-  if (!a.classroom) tell_links(station.trainer_link(), station.viewer_link(), !is_loopback(a.address));
+  if (!a.classroom) tell_links("trainer", station.trainer_link(), station.viewer_link(), !is_loopback(a.address));
   Sitting sitting(a, setup, session, hand, station, checklist, list);
   station.wait_for_picture();
   nothing_yet.reset();

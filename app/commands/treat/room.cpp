@@ -26,6 +26,7 @@ std::string usual_view(const Plan& plan, const std::string& artery) {
 
 TreatmentRoom::TreatmentRoom(const data::Case& c, const TreatArguments& a)
     : arguments(a),
+      views(c.views),
       patient(patient_of(c)),
       physiology(circulation_of(patient, c.name, a.seed)),
       scene(patient, physiology),
@@ -52,8 +53,8 @@ TreatmentRoom::TreatmentRoom(const data::Case& c, const TreatArguments& a)
 fluoro::View TreatmentRoom::view_on(const Plan& p) const {
   const std::string artery = artery_of(p, physiology.flow.tree);
   const bool left = artery != "RCA";
-  fluoro::View view =
-      view_of(arguments.view.empty() ? usual_view(p, artery) : arguments.view, patient, left, arguments.pixels);
+  const std::string named = arguments.view.empty() ? usual_view(p, artery) : arguments.view;
+  fluoro::View view = view_of(named_view(named, views), patient, left, arguments.pixels);
   view.field_m = 0.16;
   // Places what is treated well within the picture.
   const int cell = p.path.cells[p.path.at(p.middle_m).index];

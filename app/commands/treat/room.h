@@ -36,6 +36,7 @@ class TreatmentRoom {
   nlohmann::ordered_json lesion(const Plan& p);
 
   const TreatArguments& arguments;
+  std::vector<data::CaseView> views;  ///< of the case
   vascular::Patient patient;
   vascular::PhysiologyModel physiology;
   PatientScene scene;

@@ -135,8 +135,8 @@ json treat_lesion(TreatmentRoom& room, const Plan& plan, std::vector<fluoro::Pic
 
 int run(const TreatArguments& a) {
   require_ending(a.out, {".png"});
-  if (!a.view.empty()) named_view(a.view);
   const data::Case c = case_with(a.of, a.set);
+  if (!a.view.empty()) named_view(a.view, c.views);
   show_progress("building " + c.name);
   TreatmentRoom room(c, a);
   prepare(room);

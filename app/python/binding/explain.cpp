@@ -1,10 +1,12 @@
 #include "data/identification/selection/explain.h"
 
+#include <fmt/format.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
 #include <filesystem>
+#include <optional>
 #include <sstream>
 
 #include "app/python/binding/bindings.h"
@@ -55,17 +57,20 @@ std::string explanation_of(const std::string& path, const std::vector<std::strin
 void bind_explain(py::module_& module) {
   module.def(
       "explain",
-      [](const std::filesystem::path& set, const std::vector<std::string>& tries, int threads) {
+      [](const std::filesystem::path& set, const std::vector<std::string>& tries, std::optional<int> threads) {
+        if (threads && *threads < 1) throw py::value_error(fmt::format("threads is {}; expected 1 or more", *threads));
         std::string text;
-        run_until_interrupted(
-            [&](const std::function<bool()>& stop) { text = explanation_of(set.string(), tries, threads, stop); });
+        run_until_interrupted([&](const std::function<bool()>& stop) {
+          text = explanation_of(set.string(), tries, threads.value_or(0), stop);
+        });
         return py::module_::import("json").attr("loads")(text);
       },
-      py::arg("set"), py::arg("tries") = std::vector<std::string>{}, py::arg("threads") = 0,
+      py::arg("set"), py::arg("tries") = std::vector<std::string>{}, py::arg("threads") = py::none(),
       R"(Fits a measured set, and names the effect that the model lacks; as `ostium explain --json`.
 
 set      its folder, or its measurement.json
 tries    effects to switch on ("shaft_torsion", "a+b": both together); none: the library is searched where it does not fit
+threads  None: all cores
 Returns explanation.json as a dict: verdict, parameters, errors before and after. Raises OstiumError.)");
 }
 

@@ -18,7 +18,7 @@ def rollout(
     model: Model, states: ArrayLike, inputs: ArrayLike, hold: int = 1, threads: Optional[int] = None
 ) -> tuple[NDArray[np.float32], NDArray[np.float64]]: ...
 def explain(
-    set: Union[str, PathLike[str]], tries: Sequence[str] = ..., threads: int = 0
+    set: Union[str, PathLike[str]], tries: Sequence[str] = ..., threads: Optional[int] = None
 ) -> dict[str, Any]: ...
 def run_script(
     case: str,

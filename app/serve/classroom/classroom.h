@@ -20,13 +20,21 @@ struct CourseBoard {
     std::vector<Attempt> attempts;
     bool done = false, locked = false;
     bool goes_on = false;  ///< its last attempt can go on
+    bool exam = false;     ///< nobody shows it
+    struct Tool {
+      std::string name, instrument;
+      std::vector<std::string> others;  ///< of its kind
+    };
+    std::vector<Tool> tools = {};  ///< whose instruments the learner may choose; empty: as the lesson has them
   };
   std::string title, note;
   std::string problem;  ///< of what was done last; empty: none
   std::vector<Lesson> lessons;
-  std::size_t next = 0;           ///< the first that has not been done
-  std::optional<std::size_t> at;  ///< the lesson that is open
-  bool opening = false;           ///< it is not yet, but will be
+  bool chooses_person = false;          ///< the learner may
+  std::optional<std::uint64_t> person;  ///< that is chosen; none: as each case has it
+  std::size_t next = 0;                 ///< the first that has not been done
+  std::optional<std::size_t> at;        ///< the lesson that is open
+  bool opening = false;                 ///< it is not yet, but will be
 };
 
 /// What the learner wants.
@@ -34,11 +42,14 @@ struct Ask {
   enum class Kind {
     none,
     lesson,  ///< that lesson
+    person,  ///< another one in all lessons
     list,    ///< away from the lesson that is open
     close    ///< the program ends
   } kind = Kind::none;
   std::size_t lesson = 0;
   enum class How { go_on, afresh, shown } how = How::go_on;
+  std::vector<std::string> set = {};  ///< instruments of that lesson, "tool=instrument"
+  std::optional<std::uint64_t> person = {};
 };
 
 class Classroom : public Listener {
@@ -69,6 +80,7 @@ class Classroom : public Listener {
  private:
   std::string obey(const std::string& what, const data::JsonValue& message);
   std::string open_lesson(const data::JsonValue& message);
+  std::string take_person(const data::JsonValue& message);
 
   std::string address_, trainer_token_, viewer_token_;
   std::mutex mutex_;  ///< of what follows; taken before a station's own

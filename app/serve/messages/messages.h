@@ -29,6 +29,7 @@ struct LessonWords {
   std::vector<Instruction> instructions;
   std::vector<std::size_t> needed;  ///< items of the scoring list that must hold to go on; none: it is only shown
   std::string next;                 ///< title of the lesson after it; empty: the last
+  bool exam = false;                ///< nothing is told that helps or judges: hints, errors, scores, the hidden truth
 };
 
 /// What does not change during a run.

@@ -113,4 +113,15 @@ std::string words_of(const SessionEvent& event, const SessionModel& model, const
   return event.tool >= 0 && tool < model.tools.size() ? model.tools[tool].name + ": " + what : what;
 }
 
+std::string kind_of(const SessionEvent& event) {
+  const data::EventDefinition* definition = data::definition_of(static_cast<data::EventCode>(event.code));
+  if (!definition) return "event";
+  if (definition->severity == data::Severity::critical) return "critical";
+  if (definition->severity == data::Severity::error) return "error";
+  if (definition->code == data::EventCode::script_step_begins) return "step";
+  if (definition->code == data::EventCode::mark) return "mark";
+  if (definition->code == data::EventCode::injury) return "critical";
+  return "event";
+}
+
 }  // namespace ostium::app

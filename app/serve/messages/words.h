@@ -10,4 +10,7 @@ namespace ostium::app {
 /// "wire: enters RCA", "guide: wall force high, 1.3 N"; empty: not for a timeline.
 std::string words_of(const SessionEvent& event, const SessionModel& model, const ScriptPlan& plan);
 
+/// "step", "event", "error", "critical" or "mark".
+std::string kind_of(const SessionEvent& event);
+
 }  // namespace ostium::app

@@ -67,6 +67,7 @@ const trackers = {
     document.title = `Ostium: ${message.lesson.title || message.case}`;
     $('title').textContent = message.lesson.title || message.title;
     $('who').textContent = viewer ? 'Viewer' : course.board ? 'Learner' : 'Trainer';
+    document.body.classList.toggle('exam', message.lesson.exam);
     lesson.welcome(message);
     showList(false);
     truth.tree = message.tree;

@@ -22,8 +22,12 @@ export class Course {
     this.socket = socket;
     this.board = null;
     this.learns = false; // a viewer looks on
+    this.chosen = {}; // instruments, by lesson and tool
   }
-  open(lesson, way) { this.socket.order('lesson', lesson, way); }
+  open(lesson, way) {
+    const set = Object.entries(this.chosen[lesson] ?? {}).map(([tool, instrument]) => `${tool}=${instrument}`);
+    this.socket.send({ do: 'lesson', values: [lesson, way], ...(set.length ? { set } : {}) });
+  }
   // What a lesson is: a sign and a word, so that no colour has to tell.
   state(i) {
     const lesson = this.board.lessons[i];
@@ -44,20 +48,48 @@ export class Course {
     details.className = word;
     details.open = i === this.board.next;
     details.append(summary, made('p', lesson.goal), made('small', 'To pass:'));
-    details.append(made('ul', '', ...lesson.must_hold.map((words) => made('li', words))));
+    details.append(made('ul', '', ...(lesson.must_hold.length ? lesson.must_hold : ['Come to its end.']).map((words) => made('li', words))));
     if (lesson.attempts.length) details.append(made('small', 'Attempts:'));
     if (lesson.attempts.length) details.append(made('ul', '', ...lesson.attempts.map((one) => made('li', attemptWords(one)))));
+    if (lesson.tools.length) details.append(made('small', 'Instruments:'), this.shelf(i));
     const row = made('div');
     row.className = 'row';
     if (lesson.locked) row.append(made('small', `Opens when lesson ${i} is passed.`));
     else {
       if (lesson.goes_on) row.append(this.button('Go on', i, how.goOn), this.button('New attempt', i, how.afresh));
       else row.append(this.button(lesson.attempts.length ? 'New attempt' : 'Begin', i, how.afresh));
-      row.append(this.button('Watch the expert', i, how.shown));
+      if (!lesson.exam) row.append(this.button('Watch the expert', i, how.shown));
     }
     if (i === this.board.next) row.firstChild.classList.add('on');
     details.append(row);
     return made('li', '', details);
+  }
+  // What the procedure takes, and what else of its kind there is.
+  shelf(i) {
+    const row = made('div');
+    row.className = 'row';
+    for (const tool of this.board.lessons[i].tools) {
+      const select = made('select', '', ...[...new Set([tool.instrument, ...tool.others])].map((one) => made('option', one)));
+      select.value = this.chosen[i]?.[tool.name] ?? tool.instrument;
+      select.disabled = !this.learns;
+      select.onchange = () => {
+        this.chosen[i] = { ...this.chosen[i], [tool.name]: select.value };
+        if (select.value === tool.instrument) delete this.chosen[i][tool.name];
+      };
+      row.append(made('label', `${tool.name} `, select));
+    }
+    return row;
+  }
+  // Whose arteries they are.
+  person() {
+    const number = document.createElement('input'), take = made('button', 'Take'), row = made('div', '', made('label', 'Person ', number), take,
+      made('small', 'Another number is another person, with arteries, plaque and heart of their own; empty: as each case has it.'));
+    number.type = 'number', number.min = 0, number.max = 1000000, number.step = 1;
+    number.value = this.board.person ?? '';
+    row.className = 'row', row.id = 'person';
+    take.disabled = number.disabled = !this.learns;
+    take.onclick = () => this.socket.order('person', ...(number.value === '' ? [] : [number.valueAsNumber]));
+    return row;
   }
   take(board) {
     this.board = board;
@@ -68,7 +100,7 @@ export class Course {
     const problem = made('p', board.problem);
     problem.setAttribute('role', 'alert');
     problem.hidden = !board.problem;
-    this.panel.replaceChildren(made('h2', board.title), problem, made('p', `${done} of ${board.lessons.length} lessons passed. Every attempt is kept.`),
+    this.panel.replaceChildren(made('h2', board.title), problem, made('p', `${done} of ${board.lessons.length} lessons passed. Every attempt is kept.`), ...(board.chooses_person ? [this.person()] : []),
       made('ol', '', ...board.lessons.map((_, i) => this.lesson(i))), close, made('p', board.note));
   }
   // Opening takes seconds: the patient is built.

@@ -3,7 +3,9 @@
 
 namespace ostium::app {
 
-/// The page and its parts, built into the program.
+/// The trainer's page and its parts, built into the program.
 std::vector<Page> page_files();
+/// The workbench's.
+std::vector<Page> workbench_files();
 
 }  // namespace ostium::app

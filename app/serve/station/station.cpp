@@ -23,16 +23,8 @@ using Json = nlohmann::ordered_json;
 using namespace std::chrono_literals;
 constexpr std::size_t longest_note = 500, most_notes = 500;
 
-std::string kind_of(const SessionEvent& event) {
-  const data::EventDefinition* definition = data::definition_of(static_cast<data::EventCode>(event.code));
-  if (!definition) return "event";
-  if (definition->severity == data::Severity::critical) return "critical";
-  if (definition->severity == data::Severity::error) return "error";
-  if (definition->code == data::EventCode::script_step_begins) return "step";
-  if (definition->code == data::EventCode::mark) return "mark";
-  if (definition->code == data::EventCode::injury) return "critical";
-  return "event";
-}
+/// Whether a moment says how well it goes.
+bool judges(const TimelineEntry& moment) { return moment.kind == "error" || moment.kind == "critical"; }
 
 /// Events alone; what needs signals is told at the end.
 data::RunRecord record_of_events(const std::vector<SessionEvent>& events, double step_s) {
@@ -121,7 +113,7 @@ void Station::follow() {
     if (paused_again || (!now.paused && second < told_s + 0.06)) continue;
     told_s = second, told_at = clock;
     server_->send(Channel::now, {message_of(setting_, now, live), false});
-    if (now.paused || second >= truth_s + 0.095)
+    if (!setting_.lesson.exam && (now.paused || second >= truth_s + 0.095))
       truth_s = second, server_->send(Channel::truth, {truth_bytes(setting_, now), true});
   }
 }
@@ -137,7 +129,7 @@ std::optional<TimelineEntry> Station::take_event(const SessionEvent& event) {
     unplaced_notes_.erase(unplaced_notes_.begin());
     notes_are_new_ = true;
   }
-  if (moment.words.empty()) return {};
+  if (moment.words.empty() || (setting_.lesson.exam && judges(moment))) return {};
   moments_.push_back(moment);
   return moment;
 }
@@ -186,6 +178,7 @@ void Station::tell_ticks() {
 }
 
 void Station::tell_scores() {
+  if (setting_.lesson.exam) return;
   std::vector<SessionEvent> events;
   {
     const std::lock_guard lock(mutex_);
@@ -237,7 +230,7 @@ void Station::ended(const PlayReport& report, const std::vector<data::Score>& sc
   take_events();
   Json metrics = Json::array();
   for (const data::Metric& m : report.metrics)
-    if (const std::string words = value_text(m); !words.empty())
+    if (const std::string words = value_text(m); !words.empty() && !setting_.lesson.exam)
       metrics.push_back({{"name", m.name}, {"words", words}});
   const std::string end =
       Json({{"type", "ended"}, {"outcome", report.outcome}, {"reason", report.reason}, {"metrics", metrics}}).dump();
@@ -246,7 +239,7 @@ void Station::ended(const PlayReport& report, const std::vector<data::Score>& sc
   has_ended_ = true;
   end_ = end, final_scores_ = last;
   server_->send(Channel::all, {end, false});
-  server_->send(Channel::all, {last, false});
+  if (!setting_.lesson.exam) server_->send(Channel::all, {last, false});
 }
 
 void Station::reported(const std::string& html) {
@@ -293,6 +286,7 @@ std::vector<std::string> Station::greet(Role role) {
   out.push_back(message_of(told));
   if (!setting_.lesson.instructions.empty()) out.push_back(ticks_message(ticks()));
   if (!end_.empty()) out.push_back(end_);
+  if (setting_.lesson.exam) return out;
   out.push_back(has_ended_
                     ? final_scores_
                     : scores_message(setting_.scoring,

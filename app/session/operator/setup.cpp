@@ -168,17 +168,31 @@ void require_root(const std::string& artery, const RunSetup& setup) {
       fmt::format("begin is \"{}\"; expected a coronary artery that leaves the aorta: {}", artery, expected));
 }
 
+/// Wires go for wires, catheters for catheters, balloons and stents for one another.
+int family_of(data::InstrumentKind kind) {
+  using enum data::InstrumentKind;
+  return kind == wire ? 0 : kind == balloon_shaft || kind == stent_shaft ? 2 : 1;
+}
+
+void set_tool(std::size_t t, const std::string& instrument, RunSetup& setup) {
+  const std::string file = data::instrument_file(instrument), text = data::read_file(file);
+  const data::InstrumentKind was = data::read_instrument(setup.tool_files[t], setup.tool_texts[t]).kind,
+                             is = data::read_instrument(file, text).kind;
+  if (family_of(was) != family_of(is))
+    throw data::LoadError(fmt::format("{} is set to {}, a {}; expected a {}, as the script's",
+                                      setup.script.tools[t].name, instrument, data::words_for(is),
+                                      data::words_for(was)));
+  setup.tool_files[t] = file, setup.tool_texts[t] = text;
+  setup.script.tools[t].sizes.clear();
+}
+
 }  // namespace
 
 void set_value(const std::string& key, const std::string& value, RunSetup& setup) {
   std::string known;
   for (std::size_t t = 0; t < setup.script.tools.size(); ++t) {
     known += setup.script.tools[t].name + ", ";
-    if (setup.script.tools[t].name != key) continue;
-    setup.tool_files[t] = data::instrument_file(value);
-    setup.tool_texts[t] = data::read_file(setup.tool_files[t]);
-    setup.script.tools[t].sizes.clear();
-    return;
+    if (setup.script.tools[t].name == key) return set_tool(t, value, setup);
   }
   if (key == "person") {
     const double person = number(key, value, 0, 9e15, "a whole number from 0 on");

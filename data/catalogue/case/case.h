@@ -25,6 +25,12 @@ struct ImportedVessels {
 /// Sets the lumen and its frames from meshes with the same triangles, evenly spaced over one beat; at least four.
 void set_frames(std::vector<vascular::Mesh> frames, ImportedVessels& vessels);
 
+/// How somebody looks at the case's lesions, beside the standard views (`ostium views`).
+struct CaseView {
+  std::string name;
+  double lao_deg = 0, cran_deg = 0;  ///< negative: RAO, caudal
+};
+
 struct Case {
   std::string name;  ///< the file's name without .json
   std::string title;
@@ -34,6 +40,7 @@ struct Case {
   std::uint64_t seed = 0;                           ///< of the person; 0: the population mean
   double rate_1_min = 70;                           ///< heart rate
   std::vector<vascular::Lesion> lesions;
+  std::vector<CaseView> views;
 };
 
 /// Names as files use them, in the order of Access.
@@ -42,6 +49,8 @@ const std::vector<std::string>& access_names();
 /// Throws LoadError with file, line, key, value found and what was expected. Generates the anatomy to check the
 /// lesions: one that does not fit its branch is refused, and the message lists the branches.
 Case read_case(const std::string& file, const std::string& text);
+/// The same; an imported case has these vessels instead of those in the files that it names, unless null.
+Case read_case(const std::string& file, const std::string& text, std::shared_ptr<const ImportedVessels> vessels);
 Case load_case(const std::string& file);
 
 /// All cases of data/cases and those imported under a name (`imported_folder`). Imported ones that cannot be read are

@@ -15,7 +15,9 @@ inline const JsonObjectKeys root = {
      {"anatomy", false, "whose vessels, an object; or imported", json_type::object("anatomy")},
      {"imported", false, "someone's own vessels, an object; or anatomy", json_type::object("imported")},
      {"heart_rate_1_min", true, "beats a minute, 40 to 180", json_type::number(from_to(40, 180))},
-     {"lesions", true, "narrowings, a list", json_type::list_of(json_type::object("lesion"))}},
+     {"lesions", true, "narrowings, a list", json_type::list_of(json_type::object("lesion"))},
+     {"views", false, "of its lesions, beside the standard ones, a list",
+      json_type::list_of(json_type::object("view"))}},
     {one_of_required({{"anatomy"}, {"imported"}})}};
 
 inline const JsonObjectKeys card = {"card",
@@ -68,6 +70,12 @@ inline const JsonObjectKeys lesion = {
      {"hardness", false, "of the plaque's soft part, as a multiple of a typical plaque's, 0.2 to 5; otherwise 1",
       json_type::number(from_to(0.2, 5))}}};
 
-inline const std::vector<const JsonObjectKeys*> all = {&root, &card, &anatomy, &imported, &lesion};
+inline const JsonObjectKeys view = {
+    "view",
+    {{"name", true, "how `--view` calls it, a text", json_type::text()},
+     {"lao_deg", true, "LAO in degrees, -120 to 120; negative: RAO", json_type::number(from_to(-120, 120))},
+     {"cran_deg", true, "cranial in degrees, -55 to 55; negative: caudal", json_type::number(from_to(-55, 55))}}};
+
+inline const std::vector<const JsonObjectKeys*> all = {&root, &card, &anatomy, &imported, &lesion, &view};
 
 }  // namespace ostium::data::case_keys

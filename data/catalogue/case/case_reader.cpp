@@ -16,6 +16,7 @@
 #include "data/catalogue/catalogue.h"
 #include "data/formats/paths.h"
 #include "data/formats/read_file.h"
+#include "fluoro/projection/views.h"
 #include "vascular/geometry/mesh_files/formats.h"
 #include "vascular/motion/heart_cycle.h"
 #include "vascular/motion/tube_motion.h"
@@ -104,7 +105,15 @@ void read_imported(const JsonObject& imported, const fs::path& folder, Case& c) 
   c.imported = std::make_shared<const ImportedVessels>(std::move(vessels));
 }
 
-Case case_of(const JsonValue& file) {
+CaseView read_view(const JsonObject& view, const std::vector<CaseView>& before) {
+  CaseView out{view.text("name"), view.number("lao_deg"), view.number("cran_deg")};
+  if (fluoro::find_view(out.name)) view["name"].refuse("another name than those of the standard views");
+  if (std::ranges::count(before, out.name, &CaseView::name) > 0) view["name"].refuse("a name that no other view has");
+  return out;
+}
+
+/// `vessels`: instead of the files of an imported case; null: these.
+Case case_of(const JsonValue& file, std::shared_ptr<const ImportedVessels> vessels = nullptr) {
   const JsonObject root(file, case_keys::root);
   Case c;
   if (root.text("schema") != "ostium-case/1") root.refuse("schema");
@@ -116,8 +125,10 @@ Case case_of(const JsonValue& file) {
     file.fail("the case has both \"anatomy\" and \"imported\", or neither; expected one of them");
   if (root.has("anatomy"))
     read_anatomy(JsonObject(root["anatomy"], case_keys::anatomy), c);
+  else if (const JsonObject imported(root["imported"], case_keys::imported); vessels)
+    c.imported = std::move(vessels);
   else
-    read_imported(JsonObject(root["imported"], case_keys::imported), fs::path(*file.file).parent_path(), c);
+    read_imported(imported, fs::path(*file.file).parent_path(), c);
   c.rate_1_min = root.positive("heart_rate_1_min");
   if (c.rate_1_min < vascular::least_rate_1_min || c.rate_1_min > vascular::highest_rate_1_min)
     root.refuse("heart_rate_1_min");
@@ -130,6 +141,9 @@ Case case_of(const JsonValue& file) {
   } catch (const std::invalid_argument& error) {
     root["lesions"].fail(fmt::format("{}: {}", root["lesions"].path(), error.what()));
   }
+  if (root.has("views"))
+    for (const JsonValue& value : root.list("views"))
+      c.views.push_back(read_view(JsonObject(value, case_keys::view), c.views));
   return c;
 }
 
@@ -147,6 +161,9 @@ const std::vector<std::string>& access_names() {
 }
 
 Case read_case(const std::string& file, const std::string& text) { return case_of(parse_json(file, text)); }
+Case read_case(const std::string& file, const std::string& text, std::shared_ptr<const ImportedVessels> vessels) {
+  return case_of(parse_json(file, text), std::move(vessels));
+}
 
 Case load_case(const std::string& file) {
   if (is_markups_file(file))

@@ -4,6 +4,7 @@
 
 #include "core/base/units.h"
 #include "data/catalogue/case/case.h"
+#include "fluoro/projection/views.h"
 
 namespace ostium::data {
 
@@ -41,6 +42,8 @@ std::string case_details(const Case& c) {
       fmt::format("{}: {}\n  history  {}\n  ECG      {}\n  access   {}\n  heart    {:.0f} beats a minute\n", c.name,
                   c.title, c.card.history, c.card.ecg, c.card.planned_access, c.rate_1_min);
   for (const vascular::Lesion& lesion : c.lesions) text += "  lesion   " + lesion_text(lesion) + "\n";
+  for (const CaseView& view : c.views)
+    text += fmt::format("  view     {}: {}\n", view.name, fluoro::angles_text(view.lao_deg, view.cran_deg));
   const vascular::Anatomy anatomy = anatomy_of(c);
   text += fmt::format("  {:<22} {:>9} {:>12} {:>10}\n", "branch", "length mm", "proximal mm", "distal mm");
   for (const vascular::NamedBranch& b : anatomy.branches)

@@ -28,6 +28,8 @@ struct Lesson {
   std::string begin;                   ///< "LM" or "RCA": the guide's tip lies before it; empty: nothing is in yet
   std::vector<std::string> set;        ///< "KEY=VALUE", as `ostium run --set` takes them
   std::vector<std::string> must_hold;  ///< ids of the scoring list's items
+  double limit_s = 0;                  ///< it ends by itself then; 0: never
+  bool exam = false;                   ///< no hints, no expert, and nothing is told of errors and scores
   int line = 0;                        ///< where `must_hold` stands
 };
 

@@ -33,8 +33,12 @@ inline const JsonObjectKeys lesson = {
       json_type::list_of(json_type::text(), 1)},
      {"script", true, "a script whose instruments lie ready, and whose expert shows how", json_type::text()},
      {"scoring", true, "a scoring list of data/scoring, or a file", json_type::text()},
-     {"must_hold", true, "ids of the list's items that must be done to go on",
-      json_type::list_of(json_type::text(), 1)}}};
+     {"must_hold", true, "ids of the list's items that must be done to go on; none: it has only to come to its end",
+      json_type::list_of(json_type::text())},
+     {"limit_min", false, "it ends by itself after so many minutes of simulated time, > 0 and at most 600",
+      json_type::number(above_zero_to(600))},
+     {"exam", false, "true: no hints, no expert, no going back, and nothing is told of errors and scores",
+      json_type::boolean()}}};
 
 /// Ticked once: by `until` or `event`, or by what the expert's step at `label` waits for.
 inline const JsonObjectKeys instruction = {

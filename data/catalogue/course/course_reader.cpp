@@ -136,12 +136,14 @@ Lesson read_lesson(const JsonValue& value, Named& named) {
   if (object.has("person")) lesson.person = static_cast<std::uint64_t>(object.whole("person"));
   if (object.has("begin")) lesson.begin = course_keys::beginnings[object.choice("begin", course_keys::beginnings)];
   if (object.has("set")) lesson.set = texts(object, "set");
-  lesson.must_hold = texts(object, "must_hold");
+  if (!object.list("must_hold").empty()) lesson.must_hold = texts(object, "must_hold");
   for (std::size_t i = 0; i < lesson.must_hold.size(); ++i)
     if (std::find(lesson.must_hold.begin(), lesson.must_hold.begin() + i, lesson.must_hold[i]) !=
         lesson.must_hold.begin() + i)
       object.list("must_hold")[i].refuse("each id once");
   lesson.line = object["must_hold"].line;
+  if (object.has("limit_min")) lesson.limit_s = 60 * object.number("limit_min");
+  lesson.exam = object.has("exam") && object.boolean("exam");
   return lesson;
 }
 

@@ -4,6 +4,7 @@
 #include <set>
 
 #include "data/assessment/page.h"
+#include "data/assessment/stages.h"
 #include "data/formats/load_error.h"
 
 namespace ostium::data {
@@ -188,6 +189,41 @@ TEST(Report, FormsAskAndPromiseNothing) {
   const std::string page = questionnaire_page();
   EXPECT_NE(page.find("Participant code (no name)"), std::string::npos);
   EXPECT_NE(page.find("not for decisions on a patient"), std::string::npos);
+}
+
+/// What only one of them has, or has in another order, begins no stage.
+TEST(Stages, AreWhatHappenedInAllRunsInOneOrder) {
+  using enum EventCode;
+  const auto run = [](std::vector<std::pair<EventCode, int>> what) {
+    std::vector<double> events;
+    double step = 0;
+    for (const auto& [code, tool] : what)
+      events.insert(events.end(), {step += 1000, code_number(code), static_cast<double>(tool), 0});
+    ReportRun out;
+    out.tools = {"guide", "wire"}, out.record = record_with(events), out.simulated_s = 10;
+    return out;
+  };
+  const ReportRun expert =
+      run({{tool_in, 0}, {heparin, -1}, {tool_in, 1}, {inflation_begins, -1}, {stent_deployed, -1}});
+  const ReportRun novice = run({{heparin, -1},
+                                {tool_in, 0},
+                                {tool_in, 1},
+                                {tool_out, 1},
+                                {tool_in, 1},
+                                {mark, -1},
+                                {inflation_begins, -1},
+                                {inflation_begins, -1}});
+  const std::vector<Stage> stages = common_stages({expert, novice});
+  std::vector<std::string> names;
+  for (const Stage& stage : stages) names.push_back(stage.name);
+  EXPECT_EQ(names, (std::vector<std::string>{"the run begins", "heparin", "wire in", "inflation"}));
+  EXPECT_EQ(stages[1].begin_s, (std::vector<double>{2, 1}));
+  EXPECT_EQ(stages[2].begin_s, (std::vector<double>{3, 3}));
+  EXPECT_EQ(stages[3].begin_s, (std::vector<double>{4, 7}));
+  EXPECT_EQ(common_stages({expert}).size(), 6U);
+  const std::string page = report_page({expert, novice}, read_score_list("folder/small.json", small));
+  EXPECT_NE(page.find("<td>wire in</td><td class=\"n\">0:03.0</td><td class=\"n\">1.0</td>"), std::string::npos);
+  EXPECT_EQ(report_page({expert}, read_score_list("folder/small.json", small)).find("<h2>Stages"), std::string::npos);
 }
 
 }  // namespace

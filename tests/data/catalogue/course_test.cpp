@@ -9,6 +9,7 @@
 
 #include "data/assessment/score_list.h"
 #include "data/catalogue/case/case.h"
+#include "data/catalogue/catalogue.h"
 #include "data/formats/load_error.h"
 
 namespace ostium::data {
@@ -74,6 +75,21 @@ TEST(Course, LessonsMayBeOpenInAnyOrderAndSetWhatRunsSet) {
   const Course course = read_course("mine.json", text);
   EXPECT_FALSE(course.in_order);
   EXPECT_EQ(course.lessons[0].set, std::vector<std::string>{"heart_rate=90"});
+}
+
+/// Practice with a limit, then trials of which nothing is told, from the template of a study.
+TEST(Course, AStudysTrialsAreExamsThatEndByThemselves) {
+  const Course course = find_course(data_folder() + "/study/template/trials.json");
+  EXPECT_TRUE(course.in_order);
+  ASSERT_EQ(course.lessons.size(), 4U);
+  EXPECT_DOUBLE_EQ(course.lessons[0].limit_s, 600);
+  EXPECT_FALSE(course.lessons[0].exam);
+  for (std::size_t i = 1; i < 4; ++i) {
+    EXPECT_TRUE(course.lessons[i].exam);
+    EXPECT_DOUBLE_EQ(course.lessons[i].limit_s, 1200);
+    EXPECT_TRUE(course.lessons[i].must_hold.empty());
+    EXPECT_EQ(course.lessons[i].case_name, course.lessons[1].case_name) << "the same for all";
+  }
 }
 
 /// Each lesson's case and script were read anew: 3,000 lessons took a minute.

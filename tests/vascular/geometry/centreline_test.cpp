@@ -49,6 +49,44 @@ TEST(Centreline, OfAForkIsFoundUnasked) {
   EXPECT_LT(radius_trunk, 0.15e-3);
 }
 
+/// A throat of 0.6 mm and voxels of 1.1 mm: what lies behind it is another piece of voxels, but of the same lumen.
+TEST(Centreline, GoesThroughAThroatThatIsFinerThanItsVoxels) {
+  const std::vector<Tube> tubes = {make_tube("throat", -1,
+                                             {{{0, 0, 0}, 1.8e-3},
+                                              {{0.03, 0.004, 0}, 1.7e-3},
+                                              {{0.038, 0.0045, 0}, 0.3e-3},
+                                              {{0.04, 0.0045, 0}, 0.3e-3},
+                                              {{0.048, 0.004, 0}, 1.6e-3},
+                                              {{0.08, 0, 0.01}, 1.4e-3}})};
+  const Mesh mesh = contour(TubeUnion(tubes)).mesh;
+  for (const double voxel : {0.5e-3, 0.9e-3, 1.1e-3}) {
+    Eigen::AlignedBox3d box;
+    for (const Eigen::Vector3d& p : mesh.vertices) box.extend(p);
+    const CentrelineResult found = find_centrelines(
+        mesh, {.start = {}, .ends = {}, .most_voxels = static_cast<std::size_t>(box.volume() / std::pow(voxel, 3))});
+    ASSERT_EQ(found.tree.branches.size(), 1u) << voxel;
+    const TreeBranch& branch = found.tree.branches[0];
+    EXPECT_NEAR(branch.spheres.back().s_m, tubes[0].length_m() + 1.8e-3 + 1.4e-3, 2e-3) << voxel;  // to the tips
+    const auto [off, radius] = worst(branch, tubes[0], 3e-3, tubes[0].length_m() - 3e-3);
+    EXPECT_LT(off, 0.25e-3) << voxel;
+    EXPECT_LT(radius, 0.15e-3) << voxel;
+    EXPECT_NEAR(std::ranges::min_element(branch.spheres, {}, &TreeSphere::radius_m)->radius_m, 0.3e-3, 0.08e-3)
+        << voxel;
+  }
+}
+
+/// Two pieces side by side see each other only through walls.
+TEST(Centreline, NoWayLeadsThroughAWall) {
+  const Mesh one = contour(TubeUnion({make_tube("", -1, {{{0, 0, 0}, 1.5e-3}, {{0.06, 0, 0}, 1.5e-3}})})).mesh;
+  Mesh two = one, other = one;
+  for (Eigen::Vector3d& p : other.vertices) p.y() += 4e-3;
+  append(two, other);
+  const CentrelineResult found = find_centrelines(two, {.start = {}, .ends = {}, .most_voxels = 60'000});
+  for (const TreeBranch& branch : found.tree.branches)
+    for (const TreeSphere& sphere : branch.spheres)
+      EXPECT_NEAR(sphere.p.y(), branch.spheres.front().p.y(), 1e-3) << "a branch stays in its piece";
+}
+
 TEST(Centreline, PickedPointsDecide) {
   const std::vector<Tube> tubes = fork();
   const Mesh mesh = contour(TubeUnion(tubes)).mesh;

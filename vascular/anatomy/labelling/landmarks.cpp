@@ -8,11 +8,8 @@
 
 namespace ostium::vascular {
 
-namespace {
-
 using units::mm;
 
-/// Sets the introducer's position and direction.
 void set_access(const std::optional<Eigen::Vector3d>& entry, Anatomy& anatomy, std::vector<std::string>& notes) {
   Landmarks& marks = anatomy.landmarks;
   const std::vector<Tube>& tubes = anatomy.tubes;
@@ -35,8 +32,6 @@ void set_access(const std::optional<Eigen::Vector3d>& entry, Anatomy& anatomy, s
   marks.p_access = tubes[tube].at(s).p;
   marks.access_direction = (inwards ? 1 : -1) * tubes[tube].tangent(s);
 }
-
-}  // namespace
 
 void set_landmarks(const LandmarkInputs& in, Anatomy& anatomy, std::vector<std::string>& notes) {
   Landmarks& marks = anatomy.landmarks;

@@ -18,4 +18,8 @@ struct LandmarkInputs {
 
 void set_landmarks(const LandmarkInputs& inputs, Anatomy& anatomy, std::vector<std::string>& notes);
 
+/// Instruments enter at the point of a centreline that is nearest to `entry`; none: at the end of the aorta, or the
+/// beginning of the first tube. An entry far outside adds a note.
+void set_access(const std::optional<Eigen::Vector3d>& entry, Anatomy& anatomy, std::vector<std::string>& notes);
+
 }  // namespace ostium::vascular

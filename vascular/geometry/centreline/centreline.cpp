@@ -9,6 +9,7 @@
 #include <unordered_map>
 
 #include "vascular/geometry/centreline/line_fit.h"
+#include "vascular/geometry/centreline/voxel_links.h"
 #include "vascular/geometry/centreline/voxels.h"
 #include "vascular/geometry/mesh/patient_frame.h"
 #include "vascular/geometry/mesh/winding.h"
@@ -243,6 +244,17 @@ Mesh outer_wall(const Mesh& mesh) {
   return {mesh.vertices, bordering_triangles(mesh, WindingNumber(mesh), beside_m)};
 }
 
+/// With points between, where it is linked over a throat.
+void add_place(const Eigen::Vector3d& p, double voxel_m, std::vector<Eigen::Vector3d>& line) {
+  if (!line.empty()) {
+    const Eigen::Vector3d from = line.back();
+    const double away = (p - from).norm() / voxel_m;
+    const int parts = away < 2 ? 1 : static_cast<int>(std::ceil(2 * away));
+    for (int k = 1; k < parts; ++k) line.push_back(from + static_cast<double>(k) / parts * (p - from));
+  }
+  line.push_back(p);
+}
+
 /// Two lines end at one cut.
 void add_cut(const TreeSphere& end, std::vector<Eigen::Vector3d>& cuts) {
   if (std::ranges::none_of(cuts,
@@ -263,9 +275,10 @@ CentrelineResult find_centrelines(const Mesh& mesh, const CentrelineOptions& opt
   const bool loops = !is_plain(mesh);  // there may be some
   const Mesh outer = loops ? outer_wall(mesh) : mesh;
   const BoundingVolumeHierarchy wall(outer);
-  const Voxels voxels(mesh, wall, options.most_voxels);
+  Voxels voxels(mesh, wall, options.most_voxels);
   if (voxels.count() == 0)
     throw MeshError("the mesh has no inside; expected a closed surface (ostium check says where not)");
+  link_pieces(voxels, wall);
   const int root = options.start ? voxels.nearest(*options.start) : widest_end(voxels, loops);
   Skeleton skeleton(voxels, root);
   for (const Eigen::Vector3d& end : options.ends) {
@@ -287,7 +300,7 @@ CentrelineResult find_centrelines(const Mesh& mesh, const CentrelineOptions& opt
     TreeBranch branch{.name = std::to_string(result.tree.branches.size() + 1), .parent = strand.parent, .spheres = {}};
     std::vector<Eigen::Vector3d> line;
     if (strand.parent >= 0) line.push_back(voxels.place(skeleton.strands()[strand.parent].voxels[strand.leaves_at]));
-    for (int v : strand.voxels) line.push_back(voxels.place(v));
+    for (int v : strand.voxels) add_place(voxels.place(v), voxels.size_m(), line);
     branch.spheres = fitted_spheres(line, wall, voxels.size_m());
     const bool cut = loops && options.ends.empty() && skeleton.ends_in_loop(strand);
     if (options.to_lids && !cut)

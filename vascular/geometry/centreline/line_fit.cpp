@@ -44,7 +44,8 @@ void smooth_line(std::vector<Eigen::Vector3d>& line, const BoundingVolumeHierarc
 void enlarge(TreeSphere& sphere, const Eigen::Vector3d& along, const BoundingVolumeHierarchy& wall, double voxel_m) {
   const Eigen::Vector3d from = sphere.p;
   BoundingVolumeHierarchy::Nearest near = wall.nearest(sphere.p, whole_m);
-  for (double step = voxel_m / 2; step > fineness * near.distance_m;) {
+  // Never as far as the wall, behind which there would be room, too.
+  for (double step = std::min(voxel_m, near.distance_m) / 2; step > fineness * near.distance_m;) {
     const Eigen::Vector3d away = across(sphere.p - near.point, along);
     if (away.norm() < 1e-9) break;
     const Eigen::Vector3d p = sphere.p + step * away.normalized();

@@ -1,6 +1,7 @@
 """One episode of a task: where to, how far it is, what was met on the way. Shared by all environments."""
 
 import functools
+import operator
 from typing import Optional
 
 import numpy as np
@@ -81,7 +82,7 @@ class Course:
             target = branch[random.integers(len(branch))]
         elif isinstance(target, str):
             target = who.vessel.sphere(target)
-        self.target = int(target)
+        self.target = operator.index(target)
         self.p_target = who.vessel.point(self.target)
         self.steps = 0
         self.tip = self.leading_point(nodes, tip)
