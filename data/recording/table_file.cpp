@@ -237,7 +237,8 @@ void TableFile::append(const std::string& name, const void* rows, std::size_t co
   const Id space(H5Dget_space(set), H5Sclose), memory(H5Screate_simple(before.rank, size, nullptr), H5Sclose);
   H5Sselect_hyperslab(space, H5S_SELECT_SET, start, nullptr, size, nullptr);
   const Id type(H5Dget_type(set), H5Tclose), native(H5Tget_native_type(type, H5T_DIR_ASCEND), H5Tclose);
-  file_->require_written(H5Dwrite(set, native, memory, space, H5P_DEFAULT, rows) >= 0,
+  // Rows wait in a cache, and what fails as it is emptied on closing the table is told to nobody.
+  file_->require_written(H5Dwrite(set, native, memory, space, H5P_DEFAULT, rows) >= 0 && H5Dflush(set) >= 0,
                          "table " + name + " cannot be written");
 }
 
@@ -245,7 +246,8 @@ void TableFile::shorten(const std::string& name, std::size_t rows) {
   const Id set(file_->table(name), H5Dclose);
   const Extent before = file_->extent(set);
   const hsize_t whole[3] = {std::min<hsize_t>(rows, before.rows()), before.sizes[1], before.sizes[2]};
-  file_->require_written(H5Dset_extent(set, whole) >= 0, "table " + name + " cannot be cut short");
+  file_->require_written(H5Dset_extent(set, whole) >= 0 && H5Dflush(set) >= 0,
+                         "table " + name + " cannot be cut short");
 }
 
 void TableFile::remove(const std::string& name) {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <map>
 #include <set>
@@ -45,6 +46,11 @@ std::size_t place_in(std::vector<std::string>& names, const std::string& name) {
   return names.size() - 1;
 }
 
+bool same_letters(const std::string& a, const std::string& b) {
+  return std::ranges::equal(
+      a, b, {}, [](unsigned char c) { return std::tolower(c); }, [](unsigned char c) { return std::tolower(c); });
+}
+
 class StudyReader {
  public:
   void add_participants(const std::string& file) {
@@ -61,6 +67,10 @@ class StudyReader {
         refuse_row(file, row.line, fmt::format("there is another participant {}; expected a code for each", one.code));
       for (std::size_t c = 0; c < row.fields.size(); ++c)
         if (c != code && c != group) one.about.push_back(row.fields[c]);
+      for (const std::string& known : study_.groups)
+        if (known != one.group && same_letters(known, one.group))
+          refuse_row(file, row.line,
+                     fmt::format("there are groups \"{}\" and \"{}\"; expected one spelling", known, one.group));
       place_in(study_.groups, one.group);
       study_.participants.push_back(std::move(one));
     }

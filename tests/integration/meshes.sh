@@ -81,13 +81,19 @@ expect 3 "this patient has no LM" frame "$folder/single" --fill left -o "$folder
 expect 0 "AP" frame "$folder/single" -o "$folder/empty.png"
 expect 2 "it is empty" "$ostium" import "$folder/marked.obj" -o ""
 expect 2 "it is empty" "$ostium" run ""
-# A throat of 0.9 mm in 3.4 mm, 73 %, too small a share of a long vessel to set its grid.
-awk 'BEGIN { n = 32; r = 301; for (j = 0; j < r; ++j) for (i = 0; i < n; ++i) {
-    z = 0.4 * j; x = (z - 60) / 4; w = 1.7 * (1 - 0.73 * (x * x < 1 ? 0.5 * (1 + cos(3.14159265 * x)) : 0))
+# A throat in 3.4 mm, DEPTH of its width, in the middle of ROWS times 0.4 mm.
+throat() {  # DEPTH ROWS
+  awk -v depth="$1" -v r="$2" 'BEGIN { n = 32; for (j = 0; j < r; ++j) for (i = 0; i < n; ++i) {
+    z = 0.4 * j; x = (z - 0.2 * (r - 1)) / 4; w = 1.7 * (1 - depth * (x * x < 1 ? 0.5 * (1 + cos(3.14159265 * x)) : 0))
     print "v", w * cos(6.2831853 * i / n), w * sin(6.2831853 * i / n), z }
   for (j = 0; j + 1 < r; ++j) for (i = 0; i < n; ++i) { a = 1 + j * n; b = (i + 1) % n
-    print "f", a + i, a + b, a + n + b, a + n + i } }' >"$folder/throat.obj"
+    print "f", a + i, a + b, a + n + b, a + n + i } }'
+}
+# 0.9 mm, too small a share of a long vessel to set its grid; 0.34 mm, which the first grid closes.
+throat 0.73 301 >"$folder/throat.obj"
 expect 0 '"stenosis_percent": 7[234]\.' "$ostium" import "$folder/throat.obj" -o "$folder/throat" --units mm --json
+throat 0.9 101 >"$folder/tight.obj"
+expect 0 '"stenosis_percent": \(89\|90\|91\)\.' "$ostium" import "$folder/tight.obj" -o "$folder/tight" --units mm --json
 
 # A run in it is shown and reported as long as its case is the same, its entry included.
 cat >"$folder/still.json" <<'END'

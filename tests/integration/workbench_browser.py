@@ -124,7 +124,7 @@ def shipped(ostium, folder):
         browser.click("lesion-here")
         browser.wait("two lesions", "document.querySelectorAll('#lesions-panel fieldset').length === 2")
         put(browser, "[data-is='1-stenosis_percent']", "140")
-        refused(browser, "at most 95")
+        refused(browser, "1 to 95")
         put(browser, "[data-is='1-stenosis_percent']", "55")
         browser.wait("55 %", text("lesions-panel") + ".includes('RCA, 55 %')")
         browser.click("save")

@@ -294,11 +294,14 @@ class Import {
     for (const std::string& doubt : doubts_of_frames_) made_.found.notes.push_back(doubt);
   }
 
-  /// Once more on a finer grid, where a throat is too narrow for the first and came out narrower still.
+  /// Once more on a finer grid, where a throat is too narrow for the first and came out narrower still, or hardly at
+  /// all: then no line leads on behind it.
   void look_closer() {
     if (options_.sequence || made_.repaired.voxel_m <= made_.repaired.finest_m) return;
-    const auto throats = find_narrowings(tree_of(made_.found.anatomy, {}, made_.found.lumen));
-    const double narrowest_m = vascular::narrowest_m(throats);
+    const vascular::SphereTree tree = tree_of(made_.found.anatomy, {}, made_.found.lumen);
+    double narrowest_m = vascular::narrowest_m(find_narrowings(tree));
+    if (unreached(made_.found.lumen, tree).share > vascular::unreached_matters)
+      narrowest_m = vascular::voxels_across * made_.repaired.finest_m;
     if (narrowest_m == 0 || narrowest_m > vascular::voxels_across * made_.repaired.voxel_m) return;
     repair(narrowest_m);
     label();

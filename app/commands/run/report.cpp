@@ -64,7 +64,8 @@ void print_report(const ScriptedRun& run, const PlayReport& r, const std::string
     if (const std::string value = value_text(m); !value.empty()) fmt::print("  {:<32} {}\n", m.name, value);
   // Somebody may have taken it away meanwhile.
   const bool there = !file.empty() && data::is_there(file);
-  fmt::print("state {:016x}{}{}\n", r.hash, there ? ", recorded in " : "", there ? file : "");
+  const char* kept = !there ? "" : r.problem.empty() ? ", recorded in " : ", recorded in part in ";
+  fmt::print("state {:016x}{}{}\n", r.hash, kept, there ? file : "");
 }
 
 void print_report(const BoxDriver& hand) {

@@ -58,7 +58,7 @@ vascular::Lesion read_lesion(const JsonObject& entry, const vascular::Anatomy& a
   vascular::Lesion lesion{.branch = entry.text("branch"),
                           .from_m = (entry.has("at_branch") ? 0 : entry.not_negative("from_mm")) * 1e-3,
                           .length_m = entry.positive("length_mm") * 1e-3,
-                          .stenosis = entry.positive("stenosis_percent") / 100,
+                          .stenosis = entry.number("stenosis_percent") / 100,
                           .eccentric = entry.choice("shape", {"concentric", "eccentric"}) == 1,
                           .made_of = read_composition(entry)};
   if (entry.has("side_deg")) {

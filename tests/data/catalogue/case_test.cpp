@@ -104,7 +104,7 @@ TEST(Case, ALesionThatDoesNotFitIsRefusedWithWhatExists) {
   expect_words(case_refusal("\"length_mm\": 9", "\"length_mm\": 90"),
                {"folder/small.json:9: lesions[0]", "from 40 to 130 mm of RCA", "within the branch's 101."});
   expect_words(case_refusal("\"stenosis_percent\": 70", "\"stenosis_percent\": 120"),
-               {"folder/small.json:9: lesions[0].stenosis_percent", "120", "at most 95"});
+               {"folder/small.json:9: lesions[0].stenosis_percent", "120", "1 to 95"});
   expect_words(case_refusal("\"RCA\"", "\"RAC\""),
                {"folder/small.json:9: lesions[0]", "no branch \"RAC\"", "LAD", "LCx", "RCA", "PDA"});
   for (const char* branch : {"\"aorta\"", "\"right iliac\""})

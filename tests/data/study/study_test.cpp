@@ -178,6 +178,7 @@ TEST_F(StudyTables, WhatIsWrongIsNamedWithItsLine) {
     EXPECT_NE(found.find(wanted), std::string::npos) << found;
   };
   says(refusal("code,group\nP01,a\nP01,b\n", runs_), "p.csv:3: there is another participant P01");
+  says(refusal("code,group\nP01,Novice\nP02,novice\n", runs_), "p.csv:3: there are groups \"Novice\" and \"novice\"");
   says(refusal("code,group\nP01,\n", runs_), "p.csv:2: a participant without a code or a group");
   says(refusal("code\nP01\n", runs_), "p.csv:1: there is no column \"group\"");
   says(refusal(people_, "code,case,outcome,x\nP09,c,success,1\n"), "r.csv:2: \"P09\" is no participant's code");

@@ -78,6 +78,25 @@ TEST(Narrowings, ALongOneIsAsDeepAsAShortOne) {
   EXPECT_NEAR(cosine[0].stenosis, 0.7, 0.05);
 }
 
+/// Of a narrow stretch spheres lie denser: by number most of the branch would be narrow.
+TEST(Narrowings, ALongOneCountsByItsLengthNotByItsSpheres) {
+  for (const double flat_mm : {20.0, 32.0, 40.0}) {
+    TreeBranch branch;
+    branch.name = "LAD";
+    for (double s = 0; s <= 100;) {
+      const double radius_mm = std::fabs(s - 50) < flat_mm / 2 ? 1.0 : 2.0 - notch(std::fabs(s - 50), flat_mm / 2, 2);
+      branch.spheres.push_back({{1e-3 * s, 0, 0}, 1e-3 * radius_mm, 1e-3 * s});
+      s += radius_mm / 2;
+    }
+    SphereTree tree;
+    tree.branches.push_back(branch);
+    const auto found = find_narrowings(tree);
+    ASSERT_EQ(found.size(), 1u) << flat_mm;
+    EXPECT_NEAR(found[0].stenosis, 0.5, 0.05) << flat_mm;
+    EXPECT_NEAR(found[0].reference_m, 4e-3, 0.3e-3) << flat_mm;
+  }
+}
+
 /// Each lies where the other is compared with.
 TEST(Narrowings, OneBehindAnotherTheyAreAsDeepAsAlone) {
   const auto found = find_narrowings(branch_with(

@@ -18,13 +18,25 @@ constexpr double bulging_share = 1.25;  ///< what is wider neither
 constexpr double first_share = 0.6;     ///< of the branch's median radius, and its inverse: the first round takes that
 constexpr int line_rounds = 8;
 
+/// Length that a sphere stands for: where a vessel is narrow they lie denser.
+double length_at(const TreeBranch& branch, std::size_t i) {
+  const auto& spheres = branch.spheres;
+  return (spheres[std::min(i + 1, spheres.size() - 1)].s_m - spheres[i == 0 ? 0 : i - 1].s_m) / 2;
+}
+
+/// By length; 0 of fewer than three spheres.
 double median_between(const TreeBranch& branch, double from, double to) {
-  std::vector<double> radii;
-  for (const TreeSphere& sphere : branch.spheres)
-    if (sphere.s_m >= from && sphere.s_m <= to) radii.push_back(sphere.radius_m);
+  std::vector<std::pair<double, double>> radii;  // and lengths
+  double all_m = 0;
+  for (std::size_t i = 0; i < branch.spheres.size(); ++i)
+    if (const TreeSphere& sphere = branch.spheres[i]; sphere.s_m >= from && sphere.s_m <= to)
+      radii.emplace_back(sphere.radius_m, length_at(branch, i)), all_m += radii.back().second;
   if (radii.size() < 3) return 0;
-  std::nth_element(radii.begin(), radii.begin() + static_cast<long>(radii.size() / 2), radii.end());
-  return radii[radii.size() / 2];
+  std::ranges::sort(radii);
+  double below_m = 0;
+  for (const auto& [radius_m, length_m] : radii)
+    if ((below_m += length_m) >= all_m / 2) return radius_m;
+  return radii.back().first;
 }
 
 /// The healthy branch: a line through its radii, without those that lie well below it, or above.
@@ -39,14 +51,16 @@ HealthyLine line_of(const TreeBranch& branch) {
   for (int round = 0; round < line_rounds; ++round) {
     const double least = round == 0 ? first_share : healthy_share, most = round == 0 ? 1 / first_share : bulging_share;
     double n = 0, s = 0, r = 0, ss = 0, sr = 0;
-    for (const TreeSphere& sphere : branch.spheres) {
-      const double share = sphere.radius_m / line.at(sphere.s_m);
+    int spheres = 0;
+    for (std::size_t i = 0; i < branch.spheres.size(); ++i) {
+      const TreeSphere& sphere = branch.spheres[i];
+      const double share = sphere.radius_m / line.at(sphere.s_m), w = length_at(branch, i);
       if (!(share >= least && share <= most)) continue;
-      n += 1, s += sphere.s_m, r += sphere.radius_m;
-      ss += sphere.s_m * sphere.s_m, sr += sphere.s_m * sphere.radius_m;
+      ++spheres, n += w, s += w * sphere.s_m, r += w * sphere.radius_m;
+      ss += w * sphere.s_m * sphere.s_m, sr += w * sphere.s_m * sphere.radius_m;
     }
     const double spread = n * ss - s * s;
-    if (n < 3 || !(spread > 0)) return {};
+    if (spheres < 3 || !(spread > 0)) return {};
     const double per_m = (n * sr - s * r) / spread;
     line = {(r - per_m * s) / n, per_m};
   }

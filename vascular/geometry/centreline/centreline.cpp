@@ -278,7 +278,7 @@ CentrelineResult find_centrelines(const Mesh& mesh, const CentrelineOptions& opt
   Voxels voxels(mesh, wall, options.most_voxels);
   if (voxels.count() == 0)
     throw MeshError("the mesh has no inside; expected a closed surface (ostium check says where not)");
-  link_pieces(voxels, wall);
+  link_pieces(outer, wall, voxels);
   const int root = options.start ? voxels.nearest(*options.start) : widest_end(voxels, loops);
   Skeleton skeleton(voxels, root);
   for (const Eigen::Vector3d& end : options.ends) {

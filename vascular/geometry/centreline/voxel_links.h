@@ -4,8 +4,8 @@
 
 namespace ostium::vascular {
 
-/// Links pieces of voxels that see each other through the lumen: with the largest, or with one that is linked already.
-/// No more than 24 voxels lie between them.
-void link_pieces(Voxels& voxels, const BoundingVolumeHierarchy& wall);
+/// Links pieces of voxels that see each other through the lumen: with the largest in the same surface, or with one that
+/// is linked already. No more than 24 voxels lie between them. `wall`: of `outer`.
+void link_pieces(const Mesh& outer, const BoundingVolumeHierarchy& wall, Voxels& voxels);
 
 }  // namespace ostium::vascular

@@ -31,7 +31,8 @@ namespace {
 
 using units::mm;
 constexpr double least_voxel_m = 0.12e-3, most_voxel_m = 0.4e-3;
-constexpr double voxels_between = 2.2;  // of one lumen's limbs, so that they stay apart
+constexpr double finest_voxel_m = 0.06e-3;  // where a throat asks for it
+constexpr double voxels_between = 2.2;      // of one lumen's limbs, so that they stay apart
 constexpr double least_between_m = 0.05e-3;
 constexpr double most_wall_voxels = 1.5e6;  // of the level set's surface
 constexpr double most_cells = 4e6;          // the same of a voxel that was asked for: 4 GB, and some minutes
@@ -292,8 +293,9 @@ class Mender {
     // Where most of a mesh is as narrow, it would vanish.
     const double least_m = std::min(least_voxel_m, percentile(wide, 0.5) / voxels_across);
     const double affordable_m = std::sqrt(area_m2(mesh_) / most_wall_voxels);
-    result_.finest_m = std::max(least_m, affordable_m);
-    result_.voxel_m = std::clamp(narrow_m / voxels_across, result_.finest_m, std::max(most_voxel_m, result_.finest_m));
+    result_.finest_m = std::max(std::min(least_m, finest_voxel_m), affordable_m);
+    const double from_m = options_.narrowest_m > 0 ? result_.finest_m : std::max(least_m, affordable_m);
+    result_.voxel_m = std::clamp(narrow_m / voxels_across, from_m, std::max(most_voxel_m, from_m));
   }
 
   /// By finer voxels, if none were asked for and these fill no memory; else it is said.
