@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
+
 #include "app/command_line/command.h"
 #include "app/command_line/interrupt.h"
 #include "app/command_line/links.h"
@@ -9,6 +12,7 @@
 #include "app/command_line/progress.h"
 #include "app/commands/workbench/case_folder.h"
 #include "app/commands/workbench/session_beside.h"
+#include "data/formats/load_error.h"
 #include "data/formats/paths.h"
 
 namespace ostium::app {
@@ -41,6 +45,14 @@ std::string keep_unsaved(data::CaseDraft draft) {
     }
 }
 
+/// From the page no path reaches the disk.
+void require_name(const std::string& name) {
+  const auto fits = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '-' || c == '_'; };
+  if (name.empty() || name.size() > 60 || !std::ranges::all_of(name, fits))
+    throw data::LoadError(
+        fmt::format("\"{}\" is no name of a case; expected at most 60 letters, digits, - and _", name.substr(0, 80)));
+}
+
 int run(const Arguments& a) {
   stop_on_signals();
   show_progress("reading " + a.of);
@@ -57,6 +69,7 @@ int run(const Arguments& a) {
           },
       .save_as =
           [&](data::CaseDraft& of, const std::string& name) {
+            require_name(name);
             save_as(of, name);
             read_at = time_of(of.file());
           },

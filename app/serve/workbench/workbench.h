@@ -19,7 +19,7 @@ namespace ostium::app {
 /// What the page may ask for that concerns files and programs. Each throws std::runtime_error with why not.
 struct WorkbenchOwner {
   std::function<void(data::CaseDraft&)> save;                              ///< where it is from
-  std::function<void(data::CaseDraft&, const std::string& name)> save_as;  ///< a name, or a folder
+  std::function<void(data::CaseDraft&, const std::string& name)> save_as;  ///< among the imported cases
   std::function<std::string(const data::CaseDraft&)> try_it;               ///< link of a session on it
   std::function<std::string(const std::string& file)> mends;               ///< JSON list; "": no import
 };
