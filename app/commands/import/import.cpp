@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <map>
@@ -21,6 +20,7 @@
 #include "data/formats/decimal.h"
 #include "data/formats/load_error.h"
 #include "data/formats/paths.h"
+#include "vascular/anatomy/editing/edit_anatomy.h"
 #include "vascular/anatomy/labelling/labelling.h"
 #include "vascular/anatomy/labelling/narrowings.h"
 #include "vascular/geometry/centreline/reach.h"
@@ -104,11 +104,7 @@ std::map<std::string, std::string> names_of(const std::vector<std::string>& rena
     const auto [found, wanted] = key_and_value(rename);
     if (found.empty() || wanted.empty())
       throw data::LoadError(fmt::format("\"{}\" is not FOUND=WANTED; expected for instance --rename 3=OM1", rename));
-    const auto fits = [](char c) {
-      const auto byte = static_cast<unsigned char>(c);  // of any alphabet
-      return byte >= 0x80 || std::isalnum(byte) || c == ' ' || c == '-' || c == '_';
-    };
-    if (wanted.size() > 40 || !std::all_of(wanted.begin(), wanted.end(), fits))
+    if (!vascular::is_branch_name(wanted))
       throw data::LoadError(
           fmt::format("--rename \"{}\": expected a name of at most 40 letters, digits, spaces, - and _", rename));
     if (!names.try_emplace(found, wanted).second)

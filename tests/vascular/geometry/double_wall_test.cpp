@@ -38,6 +38,20 @@ TEST(DoubleWalls, OfAWallThatIsASolidTheLumenIsWhatItHolds) {
   }
 }
 
+/// Two closed shells, of which the outer one has thicker ends than walls: its lids go with it.
+TEST(DoubleWalls, AnOuterShellGoesWithItsLids) {
+  for (const auto& [wall, end] : {std::pair{0.5 * mm, 2 * mm}, {1 * mm, 4 * mm}, {1 * mm, 1 * mm}, {1 * mm, 9 * mm}}) {
+    Mesh mesh = test::tube(2 * mm, 96 * mm, 40, 120);
+    Mesh outer = test::tube(2 * mm + wall, 96 * mm + 2 * end, 40, 120);
+    for (Eigen::Vector3d& p : outer.vertices) p.z() -= end;
+    append(mesh, outer);
+    const RepairedMesh repaired = repair_mesh(mesh);
+    EXPECT_EQ(repaired.lumens, 1) << wall << " " << end;
+    EXPECT_NEAR(volume_m3(repaired.lumen), 96 * mm * test::polygon_area(2 * mm, 40), 0.03 * 1.2e-6)
+        << wall << " " << end;
+  }
+}
+
 TEST(DoubleWalls, TwoTubesSideBySideAreNoWall) {
   for (const double apart : {20 * mm, 10.05 * mm, 9.95 * mm}) {  // almost touch; cross
     Mesh mesh = test::tube(5 * mm, 0.2, 36, 80, true), other = mesh;

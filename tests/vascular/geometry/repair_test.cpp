@@ -77,7 +77,7 @@ Mesh narrowed(double stenosis, double length_m) {
 }
 
 TEST(Repair, ANarrowingFinerThanTheFinestGridCutsAndItIsSaid) {
-  const RepairedMesh repaired = repair_mesh(narrowed(0.97, 60 * mm));
+  const RepairedMesh repaired = repair_mesh(narrowed(0.99, 60 * mm));
   EXPECT_EQ(repaired.lumens, 2);
   EXPECT_EQ(repaired.voxel_m, repaired.finest_m);
   EXPECT_TRUE(says(repaired, "vessel cut in two"));

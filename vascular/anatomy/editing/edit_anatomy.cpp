@@ -125,11 +125,7 @@ bool is_kept(const std::string& name) {
 }
 
 void require_new_name(const Anatomy& anatomy, const std::string& name) {
-  const auto fits = [](char c) {
-    const auto byte = static_cast<unsigned char>(c);  // of any alphabet
-    return byte >= 0x80 || std::isalnum(byte) || c == ' ' || c == '-' || c == '_';
-  };
-  if (name.empty() || name.size() > 40 || !std::ranges::all_of(name, fits))
+  if (!is_branch_name(name))
     throw std::invalid_argument(
         fmt::format("\"{}\" is no name; expected at most 40 letters, digits, spaces, - and _", name.substr(0, 60)));
   if (is_kept(name))
@@ -336,6 +332,14 @@ Anatomy with_vessel(Anatomy anatomy, const Mesh& wall, const Eigen::Vector3d& p_
   anatomy.branches.push_back({name, static_cast<int>(anatomy.tubes.size()), leaves, tube.length_m()});
   anatomy.tubes.push_back(std::move(tube));
   return anatomy;
+}
+
+bool is_branch_name(const std::string& name) {
+  const auto fits = [](char c) {
+    const auto byte = static_cast<unsigned char>(c);  // of any alphabet
+    return byte >= 0x80 || std::isalnum(byte) || c == ' ' || c == '-' || c == '_';
+  };
+  return !name.empty() && name.size() <= 40 && std::ranges::all_of(name, fits);
 }
 
 Anatomy with_name(Anatomy anatomy, const std::string& branch, const std::string& name) {

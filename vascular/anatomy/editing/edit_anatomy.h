@@ -29,7 +29,9 @@ Anatomy with_joined_tube(Anatomy anatomy, const LumenGauge& lumen, int tube, int
 /// Refused where no way leads there.
 Anatomy with_vessel(Anatomy anatomy, const Mesh& wall, const Eigen::Vector3d& p_end, const std::string& name);
 
-/// A name has at most 40 letters, digits, spaces, - and _. Refused: one that another branch has; aorta, LM, LAD, LCx
+/// At most 40 letters, digits, spaces, - and _.
+bool is_branch_name(const std::string& name);
+/// Refused: one that another branch has; aorta, LM, LAD, LCx
 /// and RCA, old or new, by which the aorta and the heart's motion are known.
 Anatomy with_name(Anatomy anatomy, const std::string& branch, const std::string& name);
 /// From `along_m` of the branch on it has another name.

@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <queue>
@@ -69,6 +70,15 @@ class ShellFinder {
         return true;
     }
     return false;
+  }
+
+  /// Whether what lies behind triangle `t` of an outer shell is another piece.
+  bool around_another(int t) const {
+    return std::ranges::any_of(std::array{1.0, -1.0}, [&](double side) {
+      const Eigen::Vector3d in = -side * normals_[t];
+      const auto inside = tree_.hits(middles_[t] + 1e-7 * in, in, thickest_m);
+      return !inside.empty() && sheets_.piece[inside[0].triangle] != sheets_.piece[t];
+    });
   }
 
   double area(int t) const { return areas_[t]; }
@@ -156,6 +166,27 @@ void absorb(const Sheets& sheets, std::vector<bool>& label, const Small& small) 
   }
 }
 
+/// A shell that is a piece of its own, round another piece, is outer with its ends, which lie farther from that.
+void take_lids_along(const Sheets& sheets, const ShellFinder& finder, std::vector<bool>& outer) {
+  constexpr double least_outer = 0.7, least_around = 0.9;  // shares
+  constexpr std::size_t looked_at = 3000;
+  const auto pieces = static_cast<std::size_t>(sheets.pieces);
+  std::vector<double> all(pieces), found(pieces), looked(pieces), around(pieces);
+  const std::size_t stride = 1 + outer.size() / looked_at;
+  for (std::size_t t = 0; t < outer.size(); ++t) {
+    const auto piece = static_cast<std::size_t>(sheets.piece[t]);
+    const double area = finder.area(static_cast<int>(t));
+    all[piece] += area, found[piece] += outer[t] ? area : 0;
+    if (!outer[t] || t % stride != 0) continue;
+    looked[piece] += area, around[piece] += finder.around_another(static_cast<int>(t)) ? area : 0;
+  }
+  for (std::size_t t = 0; t < outer.size(); ++t) {
+    const auto piece = static_cast<std::size_t>(sheets.piece[t]);
+    if (found[piece] >= least_outer * all[piece] && looked[piece] > 0 && around[piece] >= least_around * looked[piece])
+      outer[t] = true;
+  }
+}
+
 }  // namespace
 
 DoubleWall find_double_wall(const Mesh& mesh, const Sheets& sheets) {
@@ -230,6 +261,7 @@ DoubleWall find_double_wall(const Mesh& mesh, const Sheets& sheets) {
       open.push({o / 3, next});
     }
   }
+  take_lids_along(sheets, finder, result.outer);
   for (int t = n - 1; t >= 0; --t)
     if (result.outer[t]) ++result.triangles, result.where = finder.middle(t);
   return result;

@@ -55,9 +55,9 @@ class Mender {
     say("filling the lumen");
     Mesh lumen = outer_surface(mesh_, result_.voxel_m);
     std::vector<Mesh> lumens = whole_lumens(lumen);
-    if (was_cut(lumens) && result_.finest_m < result_.voxel_m) {
+    while (was_cut(lumens) && result_.finest_m < result_.voxel_m) {
       say("filling the lumen on a finer grid, as it was cut in two");
-      result_.voxel_m = result_.finest_m;
+      result_.voxel_m = std::max(result_.finest_m, result_.voxel_m / 2);
       lumen = outer_surface(mesh_, result_.voxel_m);
       lumens = whole_lumens(lumen);
     }
