@@ -36,11 +36,12 @@ void end(int id) {
 
 }  // namespace
 
-SessionBeside::SessionBeside(const std::string& case_file) {
+SessionBeside::SessionBeside(const std::string& case_file, const std::string& script) {
   std::error_code none;
   const std::string program = std::filesystem::read_symlink("/proc/self/exe", none).string();
-  std::array<std::string, 7> words = {program, "serve", case_file, "--hands", "browser", "--port", "0"};
-  std::array<char*, 8> arguments{};
+  std::array<std::string, 9> words = {program,  "serve", case_file,  "--hands", "browser",
+                                      "--port", "0",     "--script", script};
+  std::array<char*, 10> arguments{};
   for (std::size_t i = 0; i < words.size(); ++i) arguments[i] = words[i].data();
   int ends[2];
   if (pipe2(ends, O_CLOEXEC) != 0)

@@ -6,8 +6,9 @@ namespace ostium::app {
 
 class SessionBeside {
  public:
-  /// Waits until its page is there. Throws LoadError with what it says where it does not begin.
-  explicit SessionBeside(const std::string& case_file);
+  /// `script`: whose instruments lie ready. Waits until its page is there. Throws LoadError with what it says where it
+  /// does not begin.
+  SessionBeside(const std::string& case_file, const std::string& script);
   SessionBeside(const SessionBeside&) = delete;
   SessionBeside& operator=(const SessionBeside&) = delete;
   ~SessionBeside();  ///< ends it

@@ -45,6 +45,22 @@ std::string keep_unsaved(data::CaseDraft draft) {
     }
 }
 
+/// The angioplasty whose instruments suit the first lesion's artery; without one, or an aorta, a wire.
+std::string script_for(const data::Case& c) {
+  const vascular::Anatomy anatomy = anatomy_of(c);
+  if (c.lesions.empty() || !find_branch(anatomy, "aorta")) return "aorta-arch-wire";
+  const std::string access = !c.imported && c.anatomy.access == vascular::Access::radial ? "-radial" : "";
+  for (int tube = find_branch(anatomy, c.lesions.front().branch)->tube; tube >= 0;
+       tube = anatomy.tubes[static_cast<std::size_t>(tube)].parent)
+    for (const vascular::NamedBranch& branch : anatomy.branches) {
+      if (branch.tube != tube) continue;
+      if (branch.name == "RCA") return "pci-rca-mid-focal" + access;
+      if (branch.name == "LCx") return "pci-lcx-tubular" + access;
+      if (branch.name == "LAD") return "pci-lad-proximal-eccentric" + access;
+    }
+  return "aorta-arch-wire";
+}
+
 /// From the page no path reaches the disk.
 void require_name(const std::string& name) {
   const auto fits = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '-' || c == '_'; };
@@ -77,7 +93,8 @@ int run(const Arguments& a) {
           [&](const data::CaseDraft& of) {
             session.reset();
             const std::string number = std::to_string(++sessions);
-            return session.emplace(copy_into(of, std::filesystem::path(passing.path()) / number)).link();
+            return session.emplace(copy_into(of, std::filesystem::path(passing.path()) / number), script_for(of.now()))
+                .link();
           },
       .mends = mends_beside};
   Workbench workbench(std::move(draft), owner, a.address, static_cast<std::uint16_t>(a.port));
