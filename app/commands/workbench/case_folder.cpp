@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 
 #include "app/command_line/path_lock.h"
+#include "app/commands/import/imported.h"
 #include "data/catalogue/catalogue.h"
 #include "data/formats/load_error.h"
 #include "data/formats/paths.h"
@@ -36,17 +37,11 @@ void fill(const data::CaseDraft& draft, const fs::path& folder, const std::strin
 
 }  // namespace
 
-WrittenAt time_of(const std::string& file) {
-  std::error_code none;
-  const fs::file_time_type at = fs::last_write_time(file, none);
-  return none ? std::nullopt : std::optional(at);
-}
-
-void save(data::CaseDraft& draft, const WrittenAt& read_at) {
+void save(data::CaseDraft& draft, const std::optional<fs::file_time_type>& read_at) {
   const fs::path file = draft.file();
   if (ships(file.string()))
     throw data::LoadError("this case ships with Ostium and stays as it is; save it under a name");
-  if (time_of(file.string()) != read_at)
+  if (written_at(file) != read_at)
     throw data::LoadError(file.string() + ": somebody wrote there meanwhile, which is kept; save under another name");
   std::vector<data::FileText> texts = draft.texts(file.stem().string());
   for (data::FileText& one : texts) one.path = (file.parent_path() / one.path).string();
@@ -56,32 +51,26 @@ void save(data::CaseDraft& draft, const WrittenAt& read_at) {
 }
 
 void save_as(data::CaseDraft& draft, const std::string& name) {
-  const bool name_only = name.find('/') == std::string::npos && !name.starts_with(".");
-  fs::path folder = name_only ? fs::path(data::imported_folder()) / name : fs::path(name);
-  if (!folder.has_filename()) folder = folder.parent_path();
+  const fs::path folder = fs::absolute(fs::path(data::imported_folder()) / name);
   std::error_code error;
-  folder = fs::absolute(folder, error).lexically_normal();
-  const std::string own = folder.filename().string();
-  if (name.empty() || own.empty() || own == "..")
-    throw data::LoadError("the case has no name; expected a name, or a new folder");
-  if (name_only && data::is_there(fs::path(data::data_folder()) / "cases" / (own + ".json")))
-    throw data::LoadError(own + ": is a case that ships, and would hide this one; expected another name");
+  if (data::is_there(fs::path(data::data_folder()) / "cases" / (name + ".json")))
+    throw data::LoadError(name + ": is a case that ships, and would hide this one; expected another name");
   if (data::is_there(folder))
-    throw data::LoadError(folder.string() + ": is there already, and is kept; expected a new name or folder");
+    throw data::LoadError(folder.string() + ": is there already, and is kept; expected a new name");
   fs::create_directories(folder.parent_path(), error);
   const fs::path unfinished = folder.string() + ".unfinished";
   fs::create_directory(unfinished, error);
   if (error) throw data::write_error(unfinished.string(), error.message());
   const PathLock lock(unfinished.string());
   try {
-    fill(draft, unfinished, own);
+    fill(draft, unfinished, name);
     fs::rename(unfinished, folder, error);
     if (error) throw data::write_error(folder.string(), error.message());
   } catch (...) {
     fs::remove_all(unfinished, error);
     throw;
   }
-  draft.saved_as((folder / (own + ".json")).string());
+  draft.saved_as((folder / (name + ".json")).string());
 }
 
 std::string copy_into(const data::CaseDraft& draft, const fs::path& folder) {

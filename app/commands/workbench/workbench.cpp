@@ -10,6 +10,7 @@
 #include "app/command_line/links.h"
 #include "app/command_line/passing_folder.h"
 #include "app/command_line/progress.h"
+#include "app/commands/import/imported.h"
 #include "app/commands/workbench/case_folder.h"
 #include "app/commands/workbench/session_beside.h"
 #include "data/formats/load_error.h"
@@ -35,12 +36,11 @@ void declare(Options& options, Arguments& a) {
 
 /// Beside the imported cases, under the first name that is free. The case's file.
 std::string keep_unsaved(data::CaseDraft draft) {
-  const std::string own = std::filesystem::path(draft.file()).stem().string() + "-unsaved";
+  const std::string own = draft.now().name + "-unsaved";
   for (int i = 1;; ++i)
-    if (const auto folder =
-            std::filesystem::path(data::imported_folder()) / (i == 1 ? own : fmt::format("{}-{}", own, i));
-        !data::is_there(folder)) {
-      save_as(draft, folder.string());
+    if (const std::string name = i == 1 ? own : fmt::format("{}-{}", own, i);
+        !data::is_there(std::filesystem::path(data::imported_folder()) / name)) {
+      save_as(draft, name);
       return draft.file();
     }
 }
@@ -73,7 +73,7 @@ int run(const Arguments& a) {
   stop_on_signals();
   show_progress("reading " + a.of);
   data::CaseDraft draft(a.of);
-  WrittenAt read_at = time_of(draft.file());
+  auto read_at = written_at(draft.file());
   const PassingFolder passing("workbench");
   std::optional<SessionBeside> session;
   int sessions = 0;
@@ -81,13 +81,13 @@ int run(const Arguments& a) {
       .save =
           [&](data::CaseDraft& of) {
             save(of, read_at);
-            read_at = time_of(of.file());
+            read_at = written_at(of.file());
           },
       .save_as =
           [&](data::CaseDraft& of, const std::string& name) {
             require_name(name);
             save_as(of, name);
-            read_at = time_of(of.file());
+            read_at = written_at(of.file());
           },
       .try_it =
           [&](const data::CaseDraft& of) {
